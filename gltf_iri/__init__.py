@@ -1,0 +1,1 @@
+"""Reference implementation of KHR_materials_iridescence: evaluator, renderer and spectral truth for glTF."""

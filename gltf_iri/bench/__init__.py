@@ -1,0 +1,1 @@
+"""Times and errors of methods, measured side by side in one run."""

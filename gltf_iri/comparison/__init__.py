@@ -1,0 +1,1 @@
+"""Two results held against each other: what differs, by how much, under which white."""

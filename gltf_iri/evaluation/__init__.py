@@ -1,0 +1,1 @@
+"""Every published method under one name and one signature."""

@@ -1,0 +1,114 @@
+"""The input and output that every film method shares."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gltf_iri.errors import UsageError
+
+__all__ = ["Base", "Evaluation", "Film", "base_from_f0", "base_from_ior"]
+
+Float64 = NDArray[np.float64]
+Complex128 = NDArray[np.complex128]
+
+
+@dataclass(frozen=True, slots=True)
+class Base:
+    """The medium under the film, in the two forms that methods want.
+
+    f0 : (..., 3) reflectance at normal incidence under air, channel by channel.
+    index : (..., 3) complex refractive index n + ik, k ≥ 0, channel by channel; equal channels are common.
+    """
+
+    f0: Float64
+    index: Complex128
+
+
+def base_from_f0(f0: ArrayLike) -> Base:
+    """Return the base whose real index is (1 + √F0)/(1 − √F0); `f0` is (..., 3) in [0, 1].
+
+    F0 = 1 gives an infinite index, the perfect mirror.
+    """
+    colour = np.asarray(f0, dtype=np.float64)
+    if colour.shape[-1:] != (3,):
+        raise UsageError("The base reflectance wants three channels in its last axis.")
+    if not np.all((colour >= 0.0) & (colour <= 1.0)):
+        raise UsageError("The base reflectance F0 must lie in [0, 1].")
+    root = np.sqrt(colour)
+    with np.errstate(divide="ignore"):  # F0 = 1 is the perfect mirror, n = ∞
+        index = (1.0 + root) / (1.0 - root)
+    return Base(colour, index.astype(np.complex128))
+
+
+def base_from_ior(ior: ArrayLike) -> Base:
+    """Return the base of index n + ik (any shape), whose F0 under air is |(n − 1)/(n + 1)|²."""
+    index = np.asarray(ior, dtype=np.complex128)[..., None] * np.ones(3)
+    if np.any(index.real < 0.0) or np.any(index.imag < 0.0):
+        raise UsageError("The base index n + ik wants n ≥ 0 and k ≥ 0 (waves are exp(−iωt)).")
+    return Base(np.abs((index - 1.0) / (index + 1.0)) ** 2, index)
+
+
+@dataclass(frozen=True, slots=True)
+class Film:
+    """A thin film seen from outside. Arrays broadcast; colours have their channels in a last axis of 3.
+
+    cos_theta_1 : cosine of the outside angle, in [0, 1].
+    thickness_nm : film thickness, ≥ 0.
+    film_ior, outside_ior : real refractive indices.
+    """
+
+    cos_theta_1: Float64
+    thickness_nm: Float64
+    film_ior: Float64
+    base: Base
+    outside_ior: Float64
+
+    @classmethod
+    def of(
+        cls,
+        cos_theta_1: ArrayLike,
+        thickness_nm: ArrayLike,
+        film_ior: ArrayLike,
+        base: Base,
+        outside_ior: ArrayLike = 1.0,
+    ) -> Film:
+        """Check the ranges and return the film; raises UsageError where a value is out of range."""
+        arrays = [np.asarray(a, dtype=np.float64) for a in (cos_theta_1, thickness_nm, film_ior, outside_ior)]
+        cosine, thickness, film, outside = arrays
+        if np.any((cosine < 0.0) | (cosine > 1.0)):
+            raise UsageError("The cosine of the outside angle must lie in [0, 1].")
+        if np.any(thickness < 0.0):
+            raise UsageError("The film thickness must not be negative.")
+        if np.any(film <= 0.0) or np.any(outside <= 0.0):
+            raise UsageError("Refractive indices must be positive.")
+        return cls(cosine, thickness, film, base, outside)
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the result without its channel axis."""
+        return np.broadcast_shapes(
+            self.cos_theta_1.shape,
+            self.thickness_nm.shape,
+            self.film_ior.shape,
+            self.outside_ior.shape,
+            self.base.f0.shape[:-1],
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation:
+    """Reflectance colours and what a reader must know about them.
+
+    rgb : (..., 3) linear Rec.709, not gamut-clamped.
+    undefined : for each undefined case of the method's text that occurred, the mask (...) of rows it touched.
+    """
+
+    rgb: Float64
+    method: str
+    white: str
+    backend: str = "numpy"
+    undefined: Mapping[str, NDArray[np.bool_]] = field(default_factory=dict)

@@ -1,0 +1,1 @@
+"""The physics, one phenomenon a file, twins of shaders/optics/*.glsl."""

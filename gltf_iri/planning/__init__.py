@@ -1,0 +1,1 @@
+"""Decides, once, which effects a material calls for, with which method, and why."""

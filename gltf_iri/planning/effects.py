@@ -1,0 +1,51 @@
+"""The effects that a material or a scene can call for, in the order the shader meets them.
+
+An effect's name is what `plan --json` prints; its define is what the shader permutation sees. There are no
+other spellings, so a misspelt feature cannot be silently left out.
+"""
+
+from __future__ import annotations
+
+from enum import Enum
+
+__all__ = ["Effect"]
+
+
+class Effect(Enum):
+    """One thing that costs time and changes the picture."""
+
+    # What the geometry and the scene bring.
+    VERTEX_COLOR = "vertex-color"
+    TANGENTS = "tangents"
+    PUNCTUAL_LIGHTS = "punctual-lights"
+    IMAGE_LIGHT = "image-light"
+
+    # Core material.
+    UNLIT = "unlit"
+    BASE_COLOR_TEXTURE = "base-color-texture"
+    ALPHA_MASK = "alpha-mask"
+    ALPHA_BLEND = "alpha-blend"
+    DOUBLE_SIDED = "double-sided"
+    DIELECTRIC = "dielectric"
+    METAL = "metal"
+    METALLIC_ROUGHNESS_TEXTURE = "metallic-roughness-texture"
+    NORMAL_TEXTURE = "normal-texture"
+    OCCLUSION_TEXTURE = "occlusion-texture"
+    EMISSION = "emission"
+    EMISSIVE_TEXTURE = "emissive-texture"
+
+    # Extensions.
+    SPECULAR = "specular"
+    SPECULAR_TEXTURE = "specular-texture"
+    SPECULAR_COLOR_TEXTURE = "specular-color-texture"
+    IRIDESCENCE = "iridescence"
+    IRIDESCENCE_TEXTURE = "iridescence-texture"
+    IRIDESCENCE_THICKNESS_TEXTURE = "iridescence-thickness-texture"
+    TRANSMISSION = "transmission"
+    VOLUME = "volume"
+    CLEARCOAT = "clearcoat"
+
+    @property
+    def define(self) -> str:
+        """The preprocessor symbol that switches the effect on in GLSL."""
+        return "HAS_" + self.name

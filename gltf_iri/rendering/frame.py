@@ -1,0 +1,60 @@
+"""What a frame holds: the picture, and beside it everything that its pixels were shaded with.
+
+`INPUT_TARGETS` is the one statement of that layout; the shader's outputs and the reader both follow it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["INPUT_TARGETS", "Frame", "ShadingInputs"]
+
+Float32 = NDArray[np.float32]
+
+# One RGBA32F target a row: (colour in rgb, scalar in a). OpenGL 3.3 promises eight, and these are eight.
+INPUT_TARGETS: tuple[tuple[str, str], ...] = (
+    ("colour", "material"),  # final linear colour; material index + 1, so that 0 is "nothing drawn here"
+    ("normal", "metallic"),  # shading normal in world space, unit, turned towards the viewer
+    ("position", "perceptual_roughness"),  # world space, metres
+    ("base_color", "iridescence_factor"),  # after texture and vertex colour
+    ("dielectric_f0", "specular_weight"),  # min(F0(ior) · specular colour, 1), before the weight
+    ("reflected_radiance", "dfg_a"),  # prefiltered image light along the mirror direction, occlusion included
+    ("irradiance", "dfg_b"),  # of image light / π, occlusion included; a white environment gives 1
+    ("emission", "iridescence_thickness_nm"),
+)
+
+
+@dataclass(frozen=True, slots=True)
+class ShadingInputs:
+    """One array a quantity, float32, shape (height, width, 3) or (height, width); row 0 is the top."""
+
+    colour: Float32
+    material: NDArray[np.int32]  # index into the plan's materials, −1 where nothing was drawn
+    normal: Float32
+    metallic: Float32
+    position: Float32
+    perceptual_roughness: Float32
+    base_color: Float32
+    iridescence_factor: Float32
+    dielectric_f0: Float32
+    specular_weight: Float32
+    reflected_radiance: Float32
+    dfg_a: Float32
+    irradiance: Float32
+    dfg_b: Float32
+    emission: Float32
+    iridescence_thickness_nm: Float32
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A finished picture: linear Rec.709 radiance before exposure and tone mapping, row 0 at the top."""
+
+    rgba: Float32  # (height, width, 4)
+    renderer: str  # OpenGL's own name for what drew it
+    milliseconds: float
+    notes: tuple[str, ...] = ()
+    inputs: ShadingInputs | None = None

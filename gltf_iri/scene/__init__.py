@@ -1,0 +1,1 @@
+"""Geometry, transforms, cameras, lights and environments as plain arrays."""

@@ -1,0 +1,39 @@
+"""Every tolerance of the project, in one place, each with the reason for its size.
+
+Tests and reports read them from here; none is written down a second time.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+__all__ = [
+    "COLOUR_CONVERGENCE",
+    "GLSL_BRANCH_ULP",
+    "GLSL_OPTICS_MAX_ABS",
+    "GLSL_PIXEL_RELATIVE",
+    "SPECTRAL_COLOUR_MAX_ABS",
+    "SPECTRAL_REFLECTANCE_MAX_ABS",
+    "SPECTRAL_VERSUS_TMM_MAX_ABS",
+]
+
+# Truth refines its wavelength nodes until no channel moves by more: far below what 8 bits or an eye resolve,
+# and reachable in float64 for films of every thickness up to some tens of micrometres.
+COLOUR_CONVERGENCE: Final = 1e-9
+
+# float64 Airy reflectance against 50 digits: a few dozen roundings of 1.1e-16, amplified near matched indices.
+SPECTRAL_REFLECTANCE_MAX_ABS: Final = 1e-13
+SPECTRAL_COLOUR_MAX_ABS: Final = 1e-9
+
+# The tmm package loses digits in its own matrix product towards grazing angles; compared at cosθ ≥ 0.01.
+SPECTRAL_VERSUS_TMM_MAX_ABS: Final = 1e-12
+
+# float32 GLSL against float64 Python on equal float32 inputs: phases reach some hundred radians, of which
+# float32 keeps 1e-5; the sensitivities' Gaussians damp them first.
+GLSL_OPTICS_MAX_ABS: Final = 5e-6
+
+# Rows so close to one of the text's own branches (film index = base index, …) may fall on either side.
+GLSL_BRANCH_ULP: Final = 8
+
+# A whole shaded pixel, relative to max(1, value): the GGX lobe amplifies the rounding of N·H by 1/α².
+GLSL_PIXEL_RELATIVE: Final = 2e-4
