@@ -21,7 +21,7 @@ __all__ = [
 # and reachable in float64 for films of every thickness up to some tens of micrometres.
 COLOUR_CONVERGENCE: Final = 1e-9
 
-# float64 Airy reflectance against 50 digits: a few dozen roundings of 1.1e-16, amplified near matched indices.
+# float64 Airy reflectance against 50 digits: a few dozen roundings of 1.1e-16, amplified near equal indices.
 SPECTRAL_REFLECTANCE_MAX_ABS: Final = 1e-13
 SPECTRAL_COLOUR_MAX_ABS: Final = 1e-9
 
