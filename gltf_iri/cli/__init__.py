@@ -1,1 +1,1 @@
-"""The command line: one verb a file, each importing only what it needs."""
+"""The command line: one verb a file, thin; nothing here computes."""
