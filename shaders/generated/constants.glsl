@@ -1,0 +1,24 @@
+// Written by gltf_iri/generate.py from the Python tables; do not edit.
+
+// gltf_iri/colour/sensitivity.py
+const vec3 SENSITIVITY_AMPLITUDE = vec3(0.846590002, 1.00022189, 1.00112249);
+const vec3 SENSITIVITY_WAVELENGTH_NM = vec3(594.883998, 557.00997, 452.816519);
+const vec3 SENSITIVITY_DECAY_NM = vec3(2419.28226, 1649.95188, 1957.26858);
+const float SENSITIVITY_SECOND_AMPLITUDE = 0.153868307;
+const float SENSITIVITY_SECOND_WAVELENGTH_NM = 446.448502;
+const float SENSITIVITY_SECOND_DECAY_NM = 2365.14261;
+const vec3 SENSITIVITY_WHITE = vec3(1.20536875, 0.948319498, 0.91000965);
+const mat3 XYZ_TO_REC709_TEXT = mat3(  // by columns
+    vec3(3.2404542, -0.969266, 0.0556434),
+    vec3(-1.5371385, 1.8760108, -0.2040259),
+    vec3(-0.4985314, 0.041556, 1.0572252));
+
+// gltf_iri/evaluation/khr_guarded.py
+const float GUARDED_MAX_F0 = 0.9999;
+const float GUARDED_MAX_R123 = 0.9999;
+const float GUARDED_MATCHED_F0 = 0.0001;
+const float GUARDED_THIN_OPD_NM = 20.0;
+
+// gltf_iri/optics/microfacet.py
+const float ALPHA_MIN = 0.001;
+const float N_DOT_V_MIN = 0.0001;
