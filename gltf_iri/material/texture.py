@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
 from gltf_iri.material.fields import extension, index, number, reference, vector
 
-__all__ = ["NormalTextureInfo", "OcclusionTextureInfo", "TextureInfo", "TextureTransform"]
+__all__ = ["Matrix3", "NormalTextureInfo", "OcclusionTextureInfo", "TextureInfo", "TextureTransform"]
+
+Matrix3 = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]  # rows
+
+_IDENTITY: Matrix3 = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -20,6 +25,18 @@ class TextureTransform:
     rotation_rad: float = number("rotation", 0.0, "Counter-clockwise rotation about the origin.", unit="rad")
     scale: tuple[float, float] = vector("scale", (1.0, 1.0), "Scale of the coordinates.")
     tex_coord: int | None = index("texCoord", None, "UV set that replaces the textureInfo's.")
+
+    @property
+    def matrix(self) -> Matrix3:
+        """Rows of the matrix that maps (u, v, 1) to the coordinates that are sampled.
+
+        glTF's v points down, so a rotation that is counter-clockwise in (u, v) has +sin in its first row. The
+        extension's listing has the other sign; its text, its test model and all viewers have this one
+        (KhronosGroup/glTF issue 1563).
+        """
+        c, s = math.cos(self.rotation_rad), math.sin(self.rotation_rad)
+        (u, v), (x, y) = self.offset, self.scale
+        return ((c * x, s * y, u), (-s * x, c * y, v), (0.0, 0.0, 1.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +53,11 @@ class TextureInfo:
         if self.transform is not None and self.transform.tex_coord is not None:
             return self.transform.tex_coord
         return self.tex_coord
+
+    @property
+    def uv_matrix(self) -> Matrix3:
+        """Rows of the matrix from the vertex's (u, v, 1) to the coordinates that are sampled."""
+        return _IDENTITY if self.transform is None else self.transform.matrix
 
 
 @dataclass(frozen=True, slots=True)
