@@ -1,0 +1,39 @@
+"""Linear Rec.709 and CIE XYZ, and what "white" means here.
+
+The extension's text gives its XYZ → Rec.709 matrix to seven decimals; method `khr` uses it as printed. Truth
+uses the same primaries with each row scaled, so that a surface that reflects everything is exactly (1, 1, 1)
+under the chosen white (`gltf_iri.colour.integrate`).
+"""
+
+from __future__ import annotations
+
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["WHITES", "XYZ_TO_REC709", "White", "rec709_to_xyz", "xyz_to_rec709"]
+
+White = Literal["D65", "E"]
+
+WHITES: Final[tuple[White, ...]] = ("D65", "E")
+
+# KHR_materials_iridescence, Analytic Spectral Integration; rows give R, G, B (GLSL writes it by columns).
+XYZ_TO_REC709: Final[NDArray[np.float64]] = np.array(
+    [
+        [3.2404542, -1.5371385, -0.4985314],
+        [-0.9692660, 1.8760108, 0.0415560],
+        [0.0556434, -0.2040259, 1.0572252],
+    ]
+)
+XYZ_TO_REC709.setflags(write=False)
+
+
+def xyz_to_rec709(xyz: ArrayLike) -> NDArray[np.float64]:
+    """Map XYZ (..., 3) to linear Rec.709 (..., 3) with the text's own matrix."""
+    return np.asarray(xyz, dtype=np.float64) @ XYZ_TO_REC709.T
+
+
+def rec709_to_xyz(rgb: ArrayLike) -> NDArray[np.float64]:
+    """Map linear Rec.709 (..., 3) to XYZ (..., 3): the inverse of `xyz_to_rec709`."""
+    return np.asarray(rgb, dtype=np.float64) @ np.linalg.inv(XYZ_TO_REC709).T
