@@ -12,6 +12,7 @@ __all__ = [
     "GLSL_BRANCH_ULP",
     "GLSL_OPTICS_MAX_ABS",
     "GLSL_PIXEL_RELATIVE",
+    "GLSL_PIXEL_ROUGHNESS_MIN",
     "SPECTRAL_COLOUR_MAX_ABS",
     "SPECTRAL_REFLECTANCE_MAX_ABS",
     "SPECTRAL_VERSUS_TMM_MAX_ABS",
@@ -37,3 +38,6 @@ GLSL_BRANCH_ULP: Final = 8
 
 # A whole shaded pixel, relative to max(1, value): the GGX lobe amplifies the rounding of N·H by 1/α².
 GLSL_PIXEL_RELATIVE: Final = 2e-4
+
+# Perceptual roughness from which a pixel is judged; below, 1/α² > 625 and the lobe is reported apart.
+GLSL_PIXEL_ROUGHNESS_MIN: Final = 0.2

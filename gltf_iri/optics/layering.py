@@ -67,7 +67,7 @@ def iridescent_conductor_layer(strength: ArrayLike, plain: ArrayLike, film: Arra
 
 
 def iridescent_dielectric_layer(strength: ArrayLike, plain: ArrayLike, film: ArrayLike) -> Layer:
-    """A dielectric without KHR_materials_specular: the bare and the filmed surface are layered, then mixed."""
+    """A dielectric without KHR_materials_specular: bare and filmed surface are layered first, then mixed."""
     bare, filmed = rgb_mix(plain), rgb_mix(film)
     share = np.asarray(strength, np.float64)
     return Layer(

@@ -1,0 +1,198 @@
+"""From a frame with its shading inputs to a comparison: Python's colours, truth's colours, and the figures.
+
+No OpenGL here: a frame from any renderer that writes the inputs can be judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.comparison.metric import Agreement, ColourError, agreement, colour_error, relative_deviation
+from gltf_iri.comparison.pixels import Pixels, gather
+from gltf_iri.comparison.result import Comparison, MaterialResult, PictureResult, Pictures, Split
+from gltf_iri.comparison.shade import FilmMethod, film_reflectance, shade
+from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.material.material import Material
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.rendering.frame import Frame, ShadingInputs
+from gltf_iri.scene.model import Camera, Light
+from gltf_iri.tolerances import GLSL_PIXEL_ROUGHNESS_MIN
+
+__all__ = ["TRUTH", "Shot", "judge"]
+
+Float64 = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+TRUTH = "spectral"
+
+
+@dataclass(frozen=True, slots=True)
+class Shot:
+    """What is needed beside the frames to shade their pixels again."""
+
+    file: str
+    materials: Sequence[Material]
+    plans: Sequence[MaterialPlan]
+    lights: Sequence[Light]
+    camera: Camera
+    white: str
+    exposure: float  # factor on linear light
+    setup: Mapping[str, Any]
+    program: Mapping[str, str]
+    notes: tuple[str, ...] = ()
+
+
+def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Comparison:
+    """Shade every drawn pixel of `frame` again and compare.
+
+    Parameters
+    ----------
+    frame : rendered with float textures and with its shading inputs; UsageError without them.
+    shot : materials, plans, lights and camera that it was rendered with.
+    coarse : the same picture with 8-bit textures, also with inputs; None where there are no textures.
+    """
+    inputs = _inputs_of(frame)
+    coarse_inputs = None if coarse is None else _inputs_of(coarse)
+    canvas = np.zeros(inputs.colour.shape)
+    pictures = Pictures(
+        glsl=np.where((inputs.material >= 0)[..., None], inputs.colour, 0.0).astype(np.float64),
+        python=canvas.copy(),
+        truth=canvas.copy(),
+        drawn=inputs.material >= 0,
+        deviation=np.zeros(canvas.shape[:2]),
+        delta_e=np.zeros(canvas.shape[:2]),
+    )
+    compared = np.zeros(canvas.shape[:2], dtype=np.bool_)
+    results = []
+    for plan, mask in _masks(inputs, shot.plans):
+        pixels = gather(inputs, mask, shot.camera)
+        results.append(_judge_material(shot, plan, pixels, inputs, mask, pictures, compared, coarse_inputs))
+    _draw_differences(pictures, compared, shot.exposure)
+    whole = PictureResult(
+        _split(inputs, compared, pictures),
+        colour_error(pictures.python[compared], pictures.truth[compared], exposure=shot.exposure),
+        _eight_bit(inputs, coarse_inputs, compared, shot.exposure),
+    )
+    return Comparison(
+        shot.file,
+        shot.white,
+        {**shot.setup, "pixels_drawn": int(pictures.drawn.sum())},
+        {**shot.program, "renderer": frame.renderer},
+        tuple(results),
+        whole,
+        pictures,
+        (*shot.notes, *frame.notes),
+    )
+
+
+def _judge_material(
+    shot: Shot,
+    plan: MaterialPlan,
+    pixels: Pixels,
+    inputs: ShadingInputs,
+    mask: Mask,
+    pictures: Pictures,
+    compared: Mask,
+    coarse: ShadingInputs | None,
+) -> MaterialResult:
+    """Shade one material's pixels with its method and with truth; writes into `pictures` and `compared`."""
+    film_ior, method, truth = _film_of(shot, plan)
+    mine = shade(pixels, plan, film_ior, shot.lights, method)
+    pictures.python[mask] = mine.rgb
+    undefined = _any_case(mine.undefined, len(mine.rgb))
+    compared[mask] = ~undefined
+    judged = mask & compared
+    result = MaterialResult(
+        plan=plan,
+        glsl_vs_python=_split(inputs, judged, pictures),
+        method_white=None,
+        truth_white=None,
+        method_vs_truth=None,
+        picture_vs_truth=None,
+        eight_bit_textures=_eight_bit(inputs, coarse, judged, shot.exposure),
+        undefined={case: int(rows.sum()) for case, rows in sorted(mine.undefined.items()) if rows.any()},
+    )
+    if not plan.calls_for(Effect.IRIDESCENCE):
+        pictures.truth[mask] = mine.rgb
+        return result
+    exact = shade(pixels, plan, film_ior, shot.lights, truth)
+    pictures.truth[mask] = exact.rgb
+    film_mine = film_reflectance(pixels, plan, film_ior, method)
+    film_exact = film_reflectance(pixels, plan, film_ior, truth)
+    seen = ~_any_case(film_mine.undefined, len(mine.rgb))
+    return replace(
+        result,
+        method_white=film_mine.white,
+        truth_white=film_exact.white,
+        method_vs_truth=colour_error(film_mine.rgb[seen], film_exact.rgb[seen]),
+        picture_vs_truth=colour_error(
+            mine.rgb[~undefined], exact.rgb[~undefined], exposure=shot.exposure
+        ),
+    )
+
+
+def _film_of(shot: Shot, plan: MaterialPlan) -> tuple[float, FilmMethod, FilmMethod]:
+    truth = partial(evaluate, TRUTH, white=shot.white)
+    if not plan.calls_for(Effect.IRIDESCENCE) or plan.method is None:
+        return 1.0, truth, truth  # no film: neither is called
+    iridescence = shot.materials[plan.index].iridescence
+    if iridescence is None:
+        raise UsageError(f"The plan of material {plan.index} has a film, but the material has none.")
+    # The shader receives the index as float32, and a film of 10 µm shows the rounding.
+    film_ior = float(np.float32(iridescence.film_ior))
+    return film_ior, partial(evaluate, plan.method, white=shot.white), truth
+
+
+def _masks(inputs: ShadingInputs, plans: Sequence[MaterialPlan]) -> Iterator[tuple[MaterialPlan, Mask]]:
+    """Yield each plan with the pixels (height, width) that it was drawn on; plans off the picture are left out."""
+    for slot, plan in enumerate(plans):
+        mask = inputs.material == slot
+        if mask.any():
+            yield plan, mask
+
+
+def _split(inputs: ShadingInputs, mask: Mask, pictures: Pictures) -> Split:
+    def over(rows: Mask) -> Agreement:
+        return agreement(pictures.glsl[rows], pictures.python[rows])
+
+    is_rough = inputs.perceptual_roughness >= np.float32(GLSL_PIXEL_ROUGHNESS_MIN)
+    return Split(over(mask), over(mask & is_rough), over(mask & ~is_rough))
+
+
+def _eight_bit(
+    inputs: ShadingInputs, coarse: ShadingInputs | None, mask: Mask, exposure: float
+) -> ColourError | None:
+    if coarse is None:
+        return None
+    both = mask & (coarse.material == inputs.material)
+    return colour_error(
+        coarse.colour[both].astype(np.float64), inputs.colour[both].astype(np.float64), exposure=exposure
+    )
+
+
+def _draw_differences(pictures: Pictures, compared: Mask, exposure: float) -> None:
+    rows = compared & np.all(np.isfinite(pictures.glsl) & np.isfinite(pictures.truth), axis=-1)
+    pictures.deviation[rows] = relative_deviation(pictures.glsl[rows], pictures.python[rows])
+    pictures.delta_e[rows] = delta_e_2000(exposure * pictures.python[rows], exposure * pictures.truth[rows])
+
+
+def _any_case(undefined: Mapping[str, Mask], count: int) -> Mask:
+    touched = np.zeros(count, dtype=np.bool_)
+    for rows in undefined.values():
+        touched |= rows
+    return touched
+
+
+def _inputs_of(frame: Frame) -> ShadingInputs:
+    if frame.inputs is None:
+        raise UsageError("This frame holds no shading inputs; render it with with_inputs=True.")
+    return frame.inputs

@@ -1,0 +1,177 @@
+"""Shades pixels a second time, in float64, from what the renderer wrote beside its picture.
+
+The equations are the renderer's (glTF 2.0 Appendix B; KHR_materials_iridescence, Implementation Notes); the
+code is not: it starts from each pixel's inputs and evaluates the film with any method, the truth included.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.comparison.lights import arriving
+from gltf_iri.comparison.pixels import Pixels
+from gltf_iri.evaluation.film import Evaluation, Film, base_from_f0
+from gltf_iri.optics.fresnel import f_schlick
+from gltf_iri.optics.layering import (
+    Layer,
+    iridescent_conductor_layer,
+    iridescent_dielectric_layer,
+    iridescent_dielectric_layer_specular,
+)
+from gltf_iri.optics.microfacet import d_ggx, v_smith_ggx_correlated
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.scene.model import Light
+
+__all__ = ["FilmMethod", "Shading", "film_reflectance", "shade"]
+
+Float64 = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+FilmMethod = Callable[[Film], Evaluation]
+
+
+@dataclass(slots=True)
+class Shading:
+    """Shaded colours (n, 3), and for each undefined case of the film's method the pixels (n,) it touched."""
+
+    rgb: Float64
+    white: str = ""  # the film's; empty where no film was evaluated
+    undefined: dict[str, Mask] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class _FilmAt:
+    """The film of one material, evaluated on its pixels; keeps account of undefined cases in `shading`."""
+
+    pixels: Pixels
+    film_ior: float
+    method: FilmMethod
+    shading: Shading
+
+    def __call__(self, base_f0: Float64, cos_theta: Float64, share: Float64) -> Float64:
+        """Return the film's reflectance (n, 3); 0 where neither the film nor this base takes part."""
+        rgb = np.zeros_like(base_f0)
+        rows = (self.pixels.iridescence_factor > 0.0) & (share > 0.0)
+        if not rows.any():
+            return rgb
+        thickness = self.pixels.thickness_nm[rows]
+        film = Film.of(cos_theta[rows], thickness, self.film_ior, base_from_f0(base_f0[rows]))
+        evaluation = self.method(film)
+        rgb[rows] = evaluation.rgb
+        self.shading.white = evaluation.white
+        for case, touched in evaluation.undefined.items():
+            mask = self.shading.undefined.setdefault(case, np.zeros(rows.shape, dtype=np.bool_))
+            mask[rows] |= np.broadcast_to(touched, film.shape)
+        return rgb
+
+
+def shade(
+    pixels: Pixels, plan: MaterialPlan, film_ior: float, lights: Sequence[Light], method: FilmMethod
+) -> Shading:
+    """Return the linear colour of each pixel of one material.
+
+    Parameters
+    ----------
+    pixels : what the renderer shaded them with.
+    plan : the material's plan; says whether it is unlit, has a film, and which layering applies.
+    film_ior : the film's refractive index; not read where the plan has no film.
+    lights : the scene's punctual lights; image light comes with the pixels.
+    method : maps a `Film` to its reflectance colours.
+    """
+    shading = Shading(np.zeros_like(pixels.base_color))
+    if plan.calls_for(Effect.UNLIT):
+        shading.rgb = pixels.base_color
+        return shading
+    film = _FilmAt(pixels, film_ior, method, shading) if plan.calls_for(Effect.IRIDESCENCE) else None
+    rgb = pixels.emission + _image_light(pixels, plan, film)
+    for light in lights:
+        rgb = rgb + _punctual_light(pixels, plan, film, light)
+    shading.rgb = rgb
+    return shading
+
+
+def film_reflectance(pixels: Pixels, plan: MaterialPlan, film_ior: float, method: FilmMethod) -> Shading:
+    """Return the film's own reflectance colour at each pixel's N·V: strength 1, metal and dielectric mixed."""
+    shading = Shading(np.zeros_like(pixels.base_color))
+    film = _FilmAt(pixels, film_ior, method, shading)
+    dielectric_share = 1.0 - pixels.metallic
+    dielectric = film(_dielectric_base(pixels, plan), pixels.n_dot_v, dielectric_share)
+    metal = film(pixels.base_color, pixels.n_dot_v, pixels.metallic)
+    shading.rgb = dielectric_share[:, None] * dielectric + pixels.metallic[:, None] * metal
+    return shading
+
+
+def _image_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt | None) -> Float64:
+    """Split sum: plain = F0·A + B, film = F(N·V)·(A + B); radiance and irradiance were prefiltered."""
+    a, b = pixels.dfg_a[:, None], pixels.dfg_b[:, None]
+    dielectric, metal = _surfaces(
+        pixels, plan, film, pixels.n_dot_v, lambda f0: f0 * a + b, film_scale=a + b
+    )
+    through = dielectric.base_weight[:, None] * pixels.base_color * pixels.irradiance
+    return _by_metalness(
+        pixels,
+        through + dielectric.specular * pixels.reflected_radiance,
+        metal * pixels.reflected_radiance,
+    )
+
+
+def _punctual_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt | None, light: Light) -> Float64:
+    """E·(N·L)·f_r, with film and Schlick at V·H, f_r = base_weight·c/π + F·V·D (glTF 2.0 Appendix B.2)."""
+    towards_light, illuminance = arriving(light, pixels.position)
+    n_dot_l = np.clip(np.sum(pixels.normal * towards_light, axis=-1), 0.0, 1.0)
+    half = pixels.view + towards_light
+    length = np.linalg.norm(half, axis=-1, keepdims=True)
+    # A light exactly behind the surface has no half vector, and lights nothing (N·L = 0).
+    half = half / np.where(length > 0.0, length, 1.0)
+    v_dot_h = np.clip(np.sum(pixels.view * half, axis=-1), 0.0, 1.0)
+    n_cross_h = np.cross(pixels.normal, half)
+    lobe = d_ggx(np.sum(n_cross_h * n_cross_h, axis=-1), pixels.alpha) * v_smith_ggx_correlated(
+        n_dot_l, pixels.n_dot_v, pixels.alpha
+    )
+    dielectric, metal = _surfaces(
+        pixels, plan, film, v_dot_h, lambda f0: f_schlick(f0, v_dot_h[:, None]), film_scale=np.ones((1, 1))
+    )
+    through = dielectric.base_weight[:, None] * pixels.base_color / np.pi
+    reflected = _by_metalness(
+        pixels, through + dielectric.specular * lobe[:, None], metal * lobe[:, None]
+    )
+    return illuminance * n_dot_l[:, None] * reflected
+
+
+def _surfaces(
+    pixels: Pixels,
+    plan: MaterialPlan,
+    film: _FilmAt | None,
+    cos_theta: Float64,
+    plain: Callable[[Float64], Float64],
+    *,
+    film_scale: Float64,
+) -> tuple[Layer, Float64]:
+    """Return the dielectric's layer and the metal's reflectance at the angle `cos_theta`."""
+    strength = pixels.iridescence_factor if film else np.zeros_like(cos_theta)
+    plain_d, plain_m = plain(pixels.dielectric_f0), plain(pixels.base_color)
+    filmed_d, filmed_m = np.zeros_like(plain_d), np.zeros_like(plain_m)
+    if film:
+        filmed_d = film_scale * film(_dielectric_base(pixels, plan), cos_theta, 1.0 - pixels.metallic)
+        filmed_m = film_scale * film(pixels.base_color, cos_theta, pixels.metallic)
+    if plan.layering == "specular":
+        layer = iridescent_dielectric_layer_specular(strength, pixels.specular_weight, plain_d, filmed_d)
+    else:
+        layer = iridescent_dielectric_layer(strength, plain_d, filmed_d)
+    return layer, iridescent_conductor_layer(strength, plain_m, filmed_m)
+
+
+def _dielectric_base(pixels: Pixels, plan: MaterialPlan) -> Float64:
+    """F0 of what lies under the film: with KHR_materials_specular its weight belongs to it."""
+    if plan.layering == "specular":
+        return pixels.specular_weight[:, None] * pixels.dielectric_f0
+    return pixels.dielectric_f0
+
+
+def _by_metalness(pixels: Pixels, dielectric: Float64, metal: Float64) -> Float64:
+    share = pixels.metallic[:, None]
+    return np.asarray((1.0 - share) * dielectric + share * metal)
