@@ -12,6 +12,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.errors import AssetError
+
 __all__ = ["Camera", "Environment", "Light", "Primitive", "Scene"]
 
 Float32 = NDArray[np.float32]
@@ -87,7 +89,8 @@ class Environment:
     """
 
     name: str
-    radiance: Float32  # (height, width, 3), linear Rec.709
+    radiance: Float32  # (height, width, 3), linear Rec.709, finite and not negative
+    notes: tuple[str, ...] = ()  # what was changed while reading, in sentences for the report
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,10 +103,17 @@ class Scene:
     lights: tuple[Light, ...]
     notes: tuple[str, ...] = ()  # what was left out, in sentences for the report
 
+    def vertices(self) -> Float64:
+        """Return every vertex that a triangle uses in world space, (n, 3); AssetError for an empty scene."""
+        placed = []
+        for p in self.primitives:
+            used = p.positions[np.unique(p.triangles)].astype(np.float64)
+            placed.append(used @ p.world[:3, :3].T + p.world[:3, 3])
+        if not placed:
+            raise AssetError("the scene has no triangles to draw")
+        return np.concatenate(placed)
+
     def bounds(self) -> tuple[Float64, Float64]:
         """Corners (lowest, highest) of the world-space box around every vertex, each (3,)."""
-        placed = [
-            p.positions.astype(np.float64) @ p.world[:3, :3].T + p.world[:3, 3] for p in self.primitives
-        ]
-        points = np.concatenate(placed)
+        points = self.vertices()
         return points.min(axis=0), points.max(axis=0)
