@@ -1,0 +1,139 @@
+"""Evaluates any function of shaders/optics and shaders/material on arrays, on the GPU, and reads the result back.
+
+Arguments become vertex attributes and results leave through transform feedback, both as plain float32: no
+texture, filter or framebuffer lies between the arrays and the function.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.film import Evaluation, Film
+from gltf_iri.planning.method import METHODS, find_method
+from gltf_iri.rendering.context import renderer_name
+from gltf_iri.rendering.source import ShaderSource, assemble_text, build_program
+
+if TYPE_CHECKING:
+    import moderngl
+
+__all__ = ["Probe", "ResultType", "probe_source"]
+
+ResultType = Literal["float", "vec3"]
+Float32 = NDArray[np.float32]
+
+_COMPONENTS: dict[ResultType, int] = {"float": 1, "vec3": 3}
+
+
+class Probe:
+    """Calls GLSL functions on arrays; one program per function is kept."""
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._programs: dict[ShaderSource, moderngl.Program] = {}
+        # Nothing is drawn into it; without a window OpenGL refuses to run at all until something is bound.
+        self._scope = context.scope(context.simple_framebuffer((1, 1)))
+
+    def evaluate(self, method: str, film: Film) -> Evaluation:
+        """Return the reflectance of `film` by the GLSL twin of `method`, with `backend` naming the renderer.
+
+        Same signature as the Python evaluators; arguments are rounded to float32. Raises UsageError where the
+        method is unknown or has no GLSL twin.
+        """
+        function = find_method(method).glsl_function
+        if function is None:
+            having = ", ".join(name for name, other in METHODS.items() if other.glsl_function)
+            raise UsageError(f"The method '{method}' has no GLSL twin; those that have one: {having}.")
+        rgb = self.call(
+            function,
+            f"optics/{method.replace('-', '_')}.glsl",
+            [film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1],
+            argument_types=["float", "float", "vec3", "float", "float"],
+        )
+        return Evaluation(rgb.astype(np.float64), method, "D65", backend=renderer_name(self._context))
+
+    def call(
+        self,
+        function: str,
+        include: str,
+        arguments: Sequence[ArrayLike],
+        result: ResultType = "vec3",
+        *,
+        argument_types: Sequence[ResultType] | None = None,
+        member: str = "",
+    ) -> Float32:
+        """Return `function` of the file `include` (below shaders/) for each row of the broadcast arguments.
+
+        Parameters
+        ----------
+        arguments : a float takes an array (...), a vec3 one (..., 3).
+        argument_types : the GLSL type of each; without it an array whose last axis is 3 is a vec3.
+        result : the type of what the function returns, or of its `member` where it returns a struct.
+
+        Returns (...) for a float and (..., 3) for a vec3, float32. Raises ShaderError where the call does not
+        compile, UsageError where shapes do not go together.
+        """
+        arrays = [np.asarray(argument, dtype=np.float32) for argument in arguments]
+        types = argument_types or ["vec3" if a.shape[-1:] == (3,) else "float" for a in arrays]
+        shape = _row_shape(arrays, types)
+        rows = [
+            np.broadcast_to(a, (*shape, 3) if t == "vec3" else shape).reshape(-1, _COMPONENTS[t])
+            for a, t in zip(arrays, types, strict=True)
+        ]
+        source = probe_source(function, include, types, result, member)
+        values = self._run(source, np.ascontiguousarray(np.concatenate(rows, axis=1)), types, result)
+        return values.reshape((*shape, 3) if result == "vec3" else shape)
+
+    def _run(
+        self, source: ShaderSource, table: Float32, types: Sequence[ResultType], result: ResultType
+    ) -> Float32:
+        if source not in self._programs:
+            self._programs[source] = build_program(self._context, source, varyings=("probe_result",))
+        program = self._programs[source]
+        if table.shape[0] == 0:
+            return np.zeros((0, _COMPONENTS[result]), dtype=np.float32)
+        layout = " ".join(f"{_COMPONENTS[t]}f" for t in types)
+        inputs = self._context.buffer(table.tobytes())
+        outputs = self._context.buffer(reserve=table.shape[0] * _COMPONENTS[result] * 4)
+        array = self._context.vertex_array(program, [(inputs, layout, *(f"a{i}" for i in range(len(types))))])
+        try:
+            with self._scope:
+                array.transform(outputs, mode=self._context.POINTS, vertices=table.shape[0])
+            return np.frombuffer(outputs.read(), dtype=np.float32).copy()
+        finally:
+            for resource in (array, inputs, outputs):
+                resource.release()
+
+
+def probe_source(
+    function: str, include: str, argument_types: Sequence[ResultType], result: ResultType, member: str = ""
+) -> ShaderSource:
+    """Return the vertex shader that calls `function` on its attributes a0, a1, …"""
+    names = [f"a{i}" for i in range(len(argument_types))]
+    attributes = [f"in {t} {name};" for t, name in zip(argument_types, names, strict=True)]
+    lines = [
+        f'#include "{include}"',
+        *attributes,
+        f"out {result} probe_result;",
+        "void main() {",
+        f"    probe_result = {function}({', '.join(names)}){'.' + member if member else ''};",
+        "}",
+    ]
+    return assemble_text("\n".join(lines), f"probe of {function}")
+
+
+def _row_shape(arrays: Sequence[Float32], types: Sequence[ResultType]) -> tuple[int, ...]:
+    for array, type_name in zip(arrays, types, strict=True):
+        if type_name == "vec3" and array.shape[-1:] != (3,):
+            raise UsageError("A vec3 argument wants an array whose last axis has three channels.")
+    try:
+        return np.broadcast_shapes(
+            *(a.shape[:-1] if t == "vec3" else a.shape for a, t in zip(arrays, types, strict=True))
+        )
+    except ValueError:
+        shapes = ", ".join(str(a.shape) for a in arrays)
+        raise UsageError(f"The arguments' shapes do not broadcast: {shapes}.") from None
