@@ -212,8 +212,10 @@ def _sampler_lines(sampler: Sampler) -> list[str]:
         f"uniform sampler2D {sampler.name};",
         f"uniform mat3 u_{slot}_uv_transform;",
         f"uniform int u_{slot}_uv_set;",
+        f"vec2 {slot}_uv(vec2 uv0, vec2 uv1) {{",
+        f"    return (u_{slot}_uv_transform * vec3(u_{slot}_uv_set == 0 ? uv0 : uv1, 1.0)).xy;",
+        "}",
         f"vec4 sample_{slot}(vec2 uv0, vec2 uv1) {{",
-        f"    vec2 uv = u_{slot}_uv_set == 0 ? uv0 : uv1;",
-        f"    return texture({sampler.name}, (u_{slot}_uv_transform * vec3(uv, 1.0)).xy);",
+        f"    return texture({sampler.name}, {slot}_uv(uv0, uv1));",
         "}",
     ]
