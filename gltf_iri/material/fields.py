@@ -55,6 +55,14 @@ class Property:
     colour_space: ColourSpace = ""
     cls: type | None = None  # dataclass of a NESTED, TEXTURE or EXTENSION
 
+    @property
+    def range_text(self) -> str:
+        """The legal numbers in interval notation, such as "[1, ∞) or 0"."""
+        low = "(−∞" if self.low is None else f"{'(' if self.low_is_excluded else '['}{self.low:g}"
+        high = "∞)" if self.high is None else f"{self.high:g}]"
+        other = "" if self.also_allowed is None else f" or {self.also_allowed:g}"
+        return f"{low}, {high}{other}"
+
 
 def properties(cls: type) -> Iterator[tuple[str, Property]]:
     """Yield ``(attribute name, property)`` for each row that the dataclass `cls` states, in order."""
