@@ -1,4 +1,4 @@
-"""Evaluates any function of shaders/optics and shaders/material on arrays, on the GPU, and reads the result back.
+"""Evaluates any function of shaders/optics and shaders/material on arrays of float32.
 
 Arguments become vertex attributes and results leave through transform feedback, both as plain float32: no
 texture, filter or framebuffer lies between the arrays and the function.

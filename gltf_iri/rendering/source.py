@@ -1,7 +1,8 @@
 """Shader sources from files: `#include`, conditions, defines, and error lines that point into the files.
 
-Each file is included once; `#line` keeps line numbers true, with the file's position in `ShaderSource.files`
-as the source string's number, so that a driver's "3:12" can be told as "shaders/optics/khr.glsl:12".
+Each file is included once. The assembler remembers where every line came from and tells a driver's "0:57" as
+"shaders/optics/khr.glsl:12". It writes no `#line`: inside expressions Mesa's parser forgets the number of the
+source string (its errors name string 0), so that the lines 12 of two files could not be told apart.
 """
 
 from __future__ import annotations
@@ -25,11 +26,13 @@ __all__ += ["translate_log"]
 
 _INCLUDE: Final = re.compile(r'\s*#\s*include\s+"([^"]+)"\s*(?://.*)?$')
 
-# Where drivers put (source string, line, message).
+# Where compilers put the line and the message.
 _DRIVER_FORMATS: Final = (
-    re.compile(r"^(?P<file>\d+):(?P<line>\d+)\(\d+\): (?P<message>.*)$"),  # Mesa
-    re.compile(r"^(?P<file>\d+)\((?P<line>\d+)\) : (?P<message>.*)$"),  # NVIDIA
-    re.compile(r"^(?:ERROR|WARNING): (?P<file>\d+):(?P<line>\d+): (?P<message>.*)$"),  # glslang, AMD, ANGLE
+    re.compile(r"^0:(?P<line>\d+)\(\d+\): (?P<message>.*)$"),  # Mesa
+    re.compile(r"^0\((?P<line>\d+)\) : (?P<message>.*)$"),  # NVIDIA
+    re.compile(
+        r"^(?:ERROR|WARNING): (?:0|.*/?[\w.-]+):(?P<line>\d+): (?P<message>.*)$"
+    ),  # glslang, AMD, ANGLE
 )
 _STAGE_HEADER: Final = re.compile(r"^(vertex|fragment)(?:_shader| info)$", re.IGNORECASE)
 
@@ -40,10 +43,11 @@ class ShaderError(GltfIriError):
 
 @dataclass(frozen=True, slots=True)
 class ShaderSource:
-    """GLSL ready for a compiler, and the files that it came from in the order of their `#line` numbers."""
+    """GLSL ready for a compiler, and where it came from."""
 
     text: str
-    files: tuple[str, ...]
+    files: tuple[str, ...]  # in the order of their first appearance
+    origins: tuple[str, ...]  # for each line of `text` "file:line", or "" where the assembler wrote it
 
 
 def assemble(entry: str, defines: Sequence[str] = (), *, version: str = "330 core") -> ShaderSource:
@@ -74,7 +78,8 @@ def assemble_text(
     head = [f"#version {version}", *(f"#define {define}" for define in defines)]
     if embedded:  # films reach 10 µm over nanometre wavelengths: mediump cannot carry their phase
         head += ["precision highp float;", "precision highp int;"]
-    return ShaderSource("\n".join(head) + "\n" + body, tuple(walk.files))
+    origins = (*([""] * len(head)), *walk.origins)
+    return ShaderSource("\n".join(head) + "\n" + body, tuple(walk.files), origins)
 
 
 class _Walk:
@@ -84,13 +89,12 @@ class _Walk:
         self.defined = defined
         self.files: list[str] = []
         self.lines: list[str] = []
+        self.origins: list[str] = []
 
     def take(self, text: str, name: str, chain: tuple[str, ...]) -> None:
-        number = len(self.files)
         self.files.append(name)
         chain = (*chain, name)
         conditions = Conditions(self.defined)
-        told = 0  # the line of this file that the compiler was last told about
         for at, line in enumerate(text.splitlines(), start=1):
             if is_directive(line):
                 try:
@@ -101,14 +105,11 @@ class _Walk:
             if not conditions.active:
                 continue
             include = _INCLUDE.match(line)
-            if include is not None:
+            if include is None:
+                self.lines.append(line)
+                self.origins.append(f"{name}:{at}")
+            else:
                 self._include(include[1], f"{name}:{at}", chain)
-                told = -1
-                continue
-            if at != told + 1 or told == 0:
-                self.lines.append(f"#line {at} {number}")
-            self.lines.append(line)
-            told = at
         if not conditions.balanced:
             raise ShaderError(f"{name}: a condition is opened and not closed with #endif.")
 
@@ -157,20 +158,20 @@ def build_program(
 
 def translate_log(log: str, vertex: ShaderSource, fragment: ShaderSource | None = None) -> str:
     """Return what a driver's log says, as "file:line: message" wherever it names a place."""
-    files = vertex.files
+    stage = vertex
     told = []
     for line in log.splitlines():
         header = _STAGE_HEADER.match(line.strip())
         if header is not None:
-            files = fragment.files if fragment and header[1].lower() == "fragment" else vertex.files
+            stage = fragment if fragment and header[1].lower() == "fragment" else vertex
         elif line.strip(" =-"):
-            told.append(_translate_line(line, files))
+            told.append(_translate_line(line, stage.origins))
     return "\n".join(told)
 
 
-def _translate_line(line: str, files: tuple[str, ...]) -> str:
+def _translate_line(line: str, origins: tuple[str, ...]) -> str:
     for pattern in _DRIVER_FORMATS:
         match = pattern.match(line)
-        if match is not None and int(match["file"]) < len(files):
-            return f"{files[int(match['file'])]}:{match['line']}: {match['message']}"
+        if match is not None and 0 < int(match["line"]) <= len(origins):
+            return f"{origins[int(match['line']) - 1] or 'the defines'}: {match['message']}"
     return line

@@ -2,6 +2,7 @@
 // Twin: gltf_iri/evaluation/khr.py. What the text leaves undefined (F0 + 0.0001 at and above 1) stays undefined here.
 
 #include "common/math.glsl"
+#include "generated/constants.glsl"
 #include "optics/fresnel.glsl"
 #include "optics/refraction.glsl"
 #include "optics/sensitivity.glsl"
@@ -22,12 +23,12 @@ vec3 iridescent_fresnel_khr(
     float phi21 = film_ior < outside_ior ? 0.0 : PI;
 
     // Film to base.
-    vec3 base_ior = fresnel0_to_ior(base_f0 + 0.0001);
+    vec3 base_ior = fresnel0_to_ior(base_f0 + F0_OFFSET);
     vec3 R23 = f_schlick(ior_to_fresnel0(base_ior, film_ior), cos_theta_2);
     vec3 phi = phi21 + PI * vec3(lessThan(base_ior, vec3(film_ior)));
 
     // The floor keeps √ away from 0, the ceiling the geometric series from its pole.
-    vec3 R123 = clamp(R12 * R23, 1e-5, 0.9999);
+    vec3 R123 = clamp(R12 * R23, R123_MIN, R123_MAX);
     vec3 r123 = sqrt(R123);
     vec3 Rs = sq(T121) * R23 / (1.0 - R123);
 

@@ -7,17 +7,17 @@
 #include "optics/refraction.glsl"
 #include "optics/sensitivity.glsl"
 
-// F = R + (f90 − R)(1 − cosθ)⁵, f90 = min(1, R / R_matched)
+// F = F0 + (F90 − F0)(1 − cosθ)⁵, F90 = min(1, F0 / MATCHED_F0)
 // Schlick, whose grazing reflectance fades with the contrast: two equal indices are no interface at any angle.
 float f_schlick_matched(float f0, float cos_theta) {
-    return f0 + (min(1.0, f0 / GUARDED_MATCHED_F0) - f0) * pow5(1.0 - cos_theta);
+    return f0 + (min(1.0, f0 / MATCHED_F0) - f0) * pow5(1.0 - cos_theta);
 }
 vec3 f_schlick_matched(vec3 f0, float cos_theta) {
-    return f0 + (min(vec3(1.0), f0 / GUARDED_MATCHED_F0) - f0) * pow5(1.0 - cos_theta);
+    return f0 + (min(vec3(1.0), f0 / MATCHED_F0) - f0) * pow5(1.0 - cos_theta);
 }
 
 // R = clamp(C0 + Σ_{m=1}^{2} Cm 2 S(m D, m φ) / S(0, 0), 0, 1), as in iridescent_fresnel_khr, and for D → 0 the bare
-// base's f_schlick(F0, cosθ₁)
+// base under the outside medium
 // KHR_materials_iridescence, Iridescence Fresnel; guards in spec/iridescence-notes.md
 vec3 iridescent_fresnel_khr_guarded(
     float outside_ior, float film_ior, vec3 base_f0, float thickness_nm, float cos_theta_1) {
@@ -27,21 +27,18 @@ vec3 iridescent_fresnel_khr_guarded(
     }
     float cos_theta_2 = sqrt(cos_2_squared);
 
-    // Keeps the index of a perfect white metal finite.
-    vec3 f0 = clamp(base_f0, 0.0, GUARDED_MAX_F0);
-
     // Outside to film.
     float R12 = f_schlick_matched(ior_to_fresnel0(film_ior, outside_ior), cos_theta_1);
     float T121 = 1.0 - R12;
     float phi21 = film_ior < outside_ior ? 0.0 : PI;
 
-    // Film to base.
-    vec3 base_ior = fresnel0_to_ior(f0);
+    // Film to base; the ceiling keeps the index of a perfect white metal finite.
+    vec3 base_ior = fresnel0_to_ior(clamp(base_f0, 0.0, MAX_F0));
     vec3 R23 = f_schlick_matched(ior_to_fresnel0(base_ior, film_ior), cos_theta_2);
     vec3 phi = phi21 + PI * vec3(lessThan(base_ior, vec3(film_ior)));
 
     // Keeps the geometric series from its pole; without the text's floor, no interface leaves no fringe.
-    vec3 R123 = min(R12 * R23, GUARDED_MAX_R123);
+    vec3 R123 = min(R12 * R23, MAX_R123);
     vec3 r123 = sqrt(R123);
     vec3 Rs = sq(T121) * R23 / (1.0 - R123);
 
@@ -54,7 +51,7 @@ vec3 iridescent_fresnel_khr_guarded(
         I += Cm * 2.0 * eval_sensitivity(float(m) * opd_nm, float(m) * phi) / SENSITIVITY_WHITE;
     }
 
-    // A film far thinner than light's waves is not there.
-    vec3 bare = f_schlick(f0, cos_theta_1);
-    return mix(bare, clamp(I, 0.0, 1.0), smoothstep(0.0, GUARDED_THIN_OPD_NM, opd_nm));
+    // A film far thinner than light's waves is not there; two orders of the series overshoot [0, 1] a little.
+    vec3 bare = f_schlick(ior_to_fresnel0(base_ior, outside_ior), cos_theta_1);
+    return clamp(mix(bare, I, smoothstep(0.0, THIN_OPD_NM, opd_nm)), 0.0, 1.0);
 }

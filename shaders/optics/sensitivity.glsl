@@ -17,9 +17,9 @@ vec3 cos_turns(vec3 cycles, vec3 shift) {
 // can hold as well; x̄ has a second lobe.
 vec3 eval_sensitivity(float opd_nm, vec3 shift) {
     vec3 xyz = SENSITIVITY_AMPLITUDE * cos_turns(opd_nm / SENSITIVITY_WAVELENGTH_NM, shift) *
-               exp(-sq(opd_nm / SENSITIVITY_DECAY_NM));
+               exp(-sq(opd_nm / SENSITIVITY_LENGTH_NM));
     float second_cycles = opd_nm / SENSITIVITY_SECOND_WAVELENGTH_NM;
     xyz.x += SENSITIVITY_SECOND_AMPLITUDE * cos_turns(vec3(second_cycles), shift).x *
-             exp(-sq(opd_nm / SENSITIVITY_SECOND_DECAY_NM));
-    return XYZ_TO_REC709_TEXT * xyz;
+             exp(-sq(opd_nm / SENSITIVITY_SECOND_LENGTH_NM));
+    return XYZ_TO_REC709 * xyz;
 }

@@ -1,0 +1,77 @@
+"""The constants that GLSL shares with Python, written as GLSL; Python's tables are the one source."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from gltf_iri.colour.sensitivity import GAUSSIANS, SENSITIVITY_WHITE, Gaussian
+from gltf_iri.colour.spaces import XYZ_TO_REC709
+from gltf_iri.evaluation import khr, khr_guarded
+from gltf_iri.optics import microfacet
+
+__all__ = ["constants_glsl", "glsl_float"]
+
+
+def constants_glsl() -> str:
+    """Return the text of shaders/generated/constants.glsl."""
+    first, second = GAUSSIANS[:3], GAUSSIANS[3]
+    blocks = [
+        ["// Constants of the Python package. Written by gltf_iri.generate; do not edit."],
+        [
+            "// gltf_iri/colour/sensitivity.py: lobes of x̄, ȳ, z̄, and the second lobe of x̄",
+            *_lobes("SENSITIVITY", "vec3", first),
+            *_lobes("SENSITIVITY_SECOND", "float", (second,)),
+            f"const vec3 SENSITIVITY_WHITE = {_vec3(SENSITIVITY_WHITE)};",
+        ],
+        [
+            "// gltf_iri/colour/spaces.py: the text's matrix, by columns",
+            "const mat3 XYZ_TO_REC709 = mat3(",
+            ",\n".join(f"    {_vec3(column)}" for column in XYZ_TO_REC709.T),
+            ");",
+        ],
+        [
+            "// gltf_iri/evaluation/khr.py",
+            _scalar("F0_OFFSET", khr.F0_OFFSET),
+            _scalar("R123_MIN", khr.R123_RANGE[0]),
+            _scalar("R123_MAX", khr.R123_RANGE[1]),
+        ],
+        [
+            "// gltf_iri/evaluation/khr_guarded.py",
+            _scalar("MAX_F0", khr_guarded.MAX_F0),
+            _scalar("MAX_R123", khr_guarded.MAX_R123),
+            _scalar("MATCHED_F0", khr_guarded.MATCHED_F0),
+            _scalar("THIN_OPD_NM", khr_guarded.THIN_OPD_NM),
+        ],
+        [
+            "// gltf_iri/optics/microfacet.py",
+            _scalar("ALPHA_MIN", microfacet.ALPHA_MIN),
+            _scalar("N_DOT_V_MIN", microfacet.N_DOT_V_MIN),
+        ],
+    ]
+    return "\n\n".join("\n".join(lines) for lines in blocks) + "\n"
+
+
+def glsl_float(value: float) -> str:
+    """Return a GLSL literal with the nine digits that identify a float32."""
+    text = f"{value:.9g}"
+    return text if "." in text or "e" in text else f"{text}.0"
+
+
+def _scalar(name: str, value: float) -> str:
+    return f"const float {name} = {glsl_float(value)};"
+
+
+def _vec3(values: Iterable[float]) -> str:
+    return f"vec3({', '.join(glsl_float(float(value)) for value in values)})"
+
+
+def _lobes(prefix: str, glsl_type: str, lobes: tuple[Gaussian, ...]) -> list[str]:
+    columns = {
+        "AMPLITUDE": [lobe.amplitude for lobe in lobes],
+        "WAVELENGTH_NM": [lobe.wavelength_nm for lobe in lobes],
+        "LENGTH_NM": [lobe.length_nm for lobe in lobes],
+    }
+    return [
+        f"const {glsl_type} {prefix}_{name} = {_vec3(column) if len(column) > 1 else glsl_float(column[0])};"
+        for name, column in columns.items()
+    ]

@@ -1,0 +1,165 @@
+// The material, as gltf_iri/material/ states it. Written by gltf_iri.generate; do not edit.
+
+// Base colour.
+uniform vec4 u_base_color_factor;
+
+#ifndef HAS_UNLIT
+// 0 dielectric, 1 metal.
+uniform float u_metallic_factor;
+// Perceptual roughness.
+uniform float u_roughness_factor;
+#endif
+
+#ifdef HAS_EMISSION
+// Emitted light, emissive strength included.
+uniform vec3 u_emissive_factor;
+#endif
+
+#ifdef HAS_ALPHA_MASK
+// Threshold of MASK.
+uniform float u_alpha_cutoff;
+#endif
+
+#ifdef HAS_SPECULAR
+// Weight of the reflection.
+uniform float u_specular_factor;
+// Tint at normal incidence.
+uniform vec3 u_specular_color_factor;
+#endif
+
+#ifdef HAS_IRIDESCENCE
+// Strength of the film.
+uniform float u_iridescence_factor;
+// Refractive index of the film.
+uniform float u_iridescence_film_ior;
+// Film thickness at a texture value of 0.
+uniform float u_iridescence_thickness_min_nm;
+// Film thickness at 1, or without texture.
+uniform float u_iridescence_thickness_max_nm;
+#endif
+
+#ifdef HAS_DIELECTRIC
+// Reflectance of the base at normal incidence under air, from its refractive index.
+uniform float u_dielectric_f0;
+#endif
+
+#ifdef HAS_BASE_COLOR_TEXTURE
+// Multiplies the base colour. Reads RGBA, stored as sRGB, sampled as linear.
+uniform sampler2D u_base_color_texture;
+uniform mat3 u_base_color_uv_transform;
+uniform int u_base_color_uv_set;
+vec2 base_color_uv(vec2 uv0, vec2 uv1) {
+    return (u_base_color_uv_transform * vec3(u_base_color_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec4 sample_base_color(vec2 uv0, vec2 uv1) {
+    return texture(u_base_color_texture, base_color_uv(uv0, uv1));
+}
+#endif
+
+#ifdef HAS_METALLIC_ROUGHNESS_TEXTURE
+// Multiplies roughness (G) and metalness (B). Reads GB, stored linear.
+uniform sampler2D u_metallic_roughness_texture;
+uniform mat3 u_metallic_roughness_uv_transform;
+uniform int u_metallic_roughness_uv_set;
+vec2 metallic_roughness_uv(vec2 uv0, vec2 uv1) {
+    return (u_metallic_roughness_uv_transform * vec3(u_metallic_roughness_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec4 sample_metallic_roughness(vec2 uv0, vec2 uv1) {
+    return texture(u_metallic_roughness_texture, metallic_roughness_uv(uv0, uv1));
+}
+#endif
+
+#ifdef HAS_NORMAL_TEXTURE
+// Multiplies x and y of each sampled normal.
+uniform float u_normal_scale;
+// Tangent-space normals. Reads RGB, stored linear.
+uniform sampler2D u_normal_texture;
+uniform mat3 u_normal_uv_transform;
+uniform int u_normal_uv_set;
+vec2 normal_uv(vec2 uv0, vec2 uv1) {
+    return (u_normal_uv_transform * vec3(u_normal_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec4 sample_normal(vec2 uv0, vec2 uv1) {
+    return texture(u_normal_texture, normal_uv(uv0, uv1));
+}
+#endif
+
+#ifdef HAS_OCCLUSION_TEXTURE
+// How much of the occlusion applies.
+uniform float u_occlusion_strength;
+// Ambient occlusion. Reads R, stored linear.
+uniform sampler2D u_occlusion_texture;
+uniform mat3 u_occlusion_uv_transform;
+uniform int u_occlusion_uv_set;
+vec2 occlusion_uv(vec2 uv0, vec2 uv1) {
+    return (u_occlusion_uv_transform * vec3(u_occlusion_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec4 sample_occlusion(vec2 uv0, vec2 uv1) {
+    return texture(u_occlusion_texture, occlusion_uv(uv0, uv1));
+}
+#endif
+
+#ifdef HAS_EMISSIVE_TEXTURE
+// Multiplies the emission. Reads RGB, stored as sRGB, sampled as linear.
+uniform sampler2D u_emissive_texture;
+uniform mat3 u_emissive_uv_transform;
+uniform int u_emissive_uv_set;
+vec2 emissive_uv(vec2 uv0, vec2 uv1) {
+    return (u_emissive_uv_transform * vec3(u_emissive_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec4 sample_emissive(vec2 uv0, vec2 uv1) {
+    return texture(u_emissive_texture, emissive_uv(uv0, uv1));
+}
+#endif
+
+#ifdef HAS_SPECULAR_TEXTURE
+// Multiplies the factor. Reads A, stored linear.
+uniform sampler2D u_specular_texture;
+uniform mat3 u_specular_uv_transform;
+uniform int u_specular_uv_set;
+vec2 specular_uv(vec2 uv0, vec2 uv1) {
+    return (u_specular_uv_transform * vec3(u_specular_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec4 sample_specular(vec2 uv0, vec2 uv1) {
+    return texture(u_specular_texture, specular_uv(uv0, uv1));
+}
+#endif
+
+#ifdef HAS_SPECULAR_COLOR_TEXTURE
+// Multiplies the tint. Reads RGB, stored as sRGB, sampled as linear.
+uniform sampler2D u_specular_color_texture;
+uniform mat3 u_specular_color_uv_transform;
+uniform int u_specular_color_uv_set;
+vec2 specular_color_uv(vec2 uv0, vec2 uv1) {
+    return (u_specular_color_uv_transform * vec3(u_specular_color_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec4 sample_specular_color(vec2 uv0, vec2 uv1) {
+    return texture(u_specular_color_texture, specular_color_uv(uv0, uv1));
+}
+#endif
+
+#ifdef HAS_IRIDESCENCE_TEXTURE
+// Multiplies the factor. Reads R, stored linear.
+uniform sampler2D u_iridescence_texture;
+uniform mat3 u_iridescence_uv_transform;
+uniform int u_iridescence_uv_set;
+vec2 iridescence_uv(vec2 uv0, vec2 uv1) {
+    return (u_iridescence_uv_transform * vec3(u_iridescence_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec4 sample_iridescence(vec2 uv0, vec2 uv1) {
+    return texture(u_iridescence_texture, iridescence_uv(uv0, uv1));
+}
+#endif
+
+#ifdef HAS_IRIDESCENCE_THICKNESS_TEXTURE
+// Thickness between the minimum (0) and the maximum (1). Reads G, stored linear.
+uniform sampler2D u_iridescence_thickness_texture;
+uniform mat3 u_iridescence_thickness_uv_transform;
+uniform int u_iridescence_thickness_uv_set;
+vec2 iridescence_thickness_uv(vec2 uv0, vec2 uv1) {
+    return (u_iridescence_thickness_uv_transform * vec3(u_iridescence_thickness_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec4 sample_iridescence_thickness(vec2 uv0, vec2 uv1) {
+    return texture(u_iridescence_thickness_texture, iridescence_thickness_uv(uv0, uv1));
+}
+#endif
