@@ -60,7 +60,7 @@ GAUSSIANS: Final[tuple[Gaussian, ...]] = (
 
 
 def eval_sensitivity(opd_nm: ArrayLike, shift: ArrayLike) -> NDArray[np.float64]:
-    """Return the linear Rec.709 weight of a fringe with path difference `opd_nm` (...) and phase `shift` (..., 3).
+    """Return the linear Rec.709 weight of a fringe of path difference `opd_nm` (...), phase `shift` (..., 3).
 
     Channel c of `shift` belongs to the c-th of X, Y, Z before the matrix, as the text has it.
     """
@@ -73,7 +73,7 @@ def eval_sensitivity(opd_nm: ArrayLike, shift: ArrayLike) -> NDArray[np.float64]
     return xyz_to_rec709(xyz)
 
 
-# The colour of "all fringes in phase", (1.205, 0.948, 0.910): equal-energy XYZ put through a D65 matrix, so it is
-# not the (1, 1, 1) that the text's constant term has.
+# The colour of "all fringes in phase", (1.205, 0.948, 0.910): equal-energy XYZ put through a D65 matrix, so
+# it is not the (1, 1, 1) that the text's constant term has.
 SENSITIVITY_WHITE: Final[NDArray[np.float64]] = eval_sensitivity(0.0, np.zeros(3))
 SENSITIVITY_WHITE.setflags(write=False)

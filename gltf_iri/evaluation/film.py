@@ -2,18 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gltf_iri.colour.integrate import integrate_colour
 from gltf_iri.errors import UsageError
 
-__all__ = ["Base", "Evaluation", "Film", "base_from_f0", "base_from_ior"]
+__all__ = [
+    "Base",
+    "Dispersion",
+    "Evaluation",
+    "Film",
+    "base_from_dispersion",
+    "base_from_f0",
+    "base_from_ior",
+]
 
 Float64 = NDArray[np.float64]
 Complex128 = NDArray[np.complex128]
+
+# A medium's index by wavelength: (k,) nm → (k,), asked between 360 and 830 nm.
+Dispersion = Callable[[Float64], NDArray[np.complex128] | Float64]
+
+# Stands for a dispersive film in methods that know one index only: helium's d line.
+_REFERENCE_NM = 587.56
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,10 +37,12 @@ class Base:
 
     f0 : (..., 3) reflectance at normal incidence under air, channel by channel.
     index : (..., 3) complex refractive index n + ik, k ≥ 0, channel by channel; equal channels are common.
+    index_at : the index by wavelength, which the truth then uses instead of `index`.
     """
 
     f0: Float64
     index: Complex128
+    index_at: Dispersion | None = None
 
 
 def base_from_f0(f0: ArrayLike) -> Base:
@@ -46,10 +63,30 @@ def base_from_f0(f0: ArrayLike) -> Base:
 
 def base_from_ior(ior: ArrayLike) -> Base:
     """Return the base of index n + ik (any shape), whose F0 under air is |(n − 1)/(n + 1)|²."""
-    index = np.asarray(ior, dtype=np.complex128)[..., None] * np.ones(3)
-    if np.any(index.real < 0.0) or np.any(index.imag < 0.0):
-        raise UsageError("The base index n + ik wants n ≥ 0 and k ≥ 0 (waves are exp(−iωt)).")
+    index = np.repeat(_checked_index(ior)[..., None], 3, axis=-1)
     return Base(np.abs((index - 1.0) / (index + 1.0)) ** 2, index)
+
+
+def base_from_dispersion(index_at: Dispersion) -> Base:
+    """Return the base of index n + ik by wavelength; its F0 is its colour at normal incidence under D65.
+
+    F0 is cut to [0, 1]: a spectrum outside the Rec.709 gamut has no glTF base colour.
+    """
+
+    def bare(rows: NDArray[np.intp], wavelength_nm: Float64) -> Float64:
+        index = _checked_index(index_at(wavelength_nm))
+        return np.abs((index - 1.0) / (index + 1.0))[None, :] ** 2 * np.ones((len(rows), 1))
+
+    f0 = np.clip(integrate_colour(bare, 1, white="D65")[0], 0.0, 1.0)
+    index = _checked_index(index_at(np.array([_REFERENCE_NM])))
+    return Base(f0, index * np.ones(3), index_at)
+
+
+def _checked_index(index: ArrayLike) -> Complex128:
+    checked = np.asarray(index, dtype=np.complex128)
+    if not np.all((checked.real >= 0.0) & (checked.imag >= 0.0)):
+        raise UsageError("The base index n + ik wants n ≥ 0 and k ≥ 0 (waves are exp(−iωt)).")
+    return checked
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +96,7 @@ class Film:
     cos_theta_1 : cosine of the outside angle, in [0, 1].
     thickness_nm : film thickness, ≥ 0.
     film_ior, outside_ior : real refractive indices.
+    film_ior_at : the film's real index by wavelength, which the truth then uses instead of `film_ior`.
     """
 
     cos_theta_1: Float64
@@ -66,26 +104,32 @@ class Film:
     film_ior: Float64
     base: Base
     outside_ior: Float64
+    film_ior_at: Dispersion | None = None
 
     @classmethod
     def of(
         cls,
         cos_theta_1: ArrayLike,
         thickness_nm: ArrayLike,
-        film_ior: ArrayLike,
+        film_ior: ArrayLike | Dispersion,
         base: Base,
         outside_ior: ArrayLike = 1.0,
     ) -> Film:
-        """Check the ranges and return the film; raises UsageError where a value is out of range."""
-        arrays = [np.asarray(a, dtype=np.float64) for a in (cos_theta_1, thickness_nm, film_ior, outside_ior)]
+        """Check the ranges and return the film; raises UsageError where a value is out of range or NaN.
+
+        A callable `film_ior` is a dispersive film; methods with one index take the one at 587.56 nm.
+        """
+        film_ior_at = film_ior if callable(film_ior) else None
+        one_ior = film_ior(np.array([_REFERENCE_NM])).real[0] if callable(film_ior) else film_ior
+        arrays = [np.asarray(a, dtype=np.float64) for a in (cos_theta_1, thickness_nm, one_ior, outside_ior)]
         cosine, thickness, film, outside = arrays
-        if np.any((cosine < 0.0) | (cosine > 1.0)):
+        if not np.all((cosine >= 0.0) & (cosine <= 1.0)):
             raise UsageError("The cosine of the outside angle must lie in [0, 1].")
-        if np.any(thickness < 0.0):
-            raise UsageError("The film thickness must not be negative.")
-        if np.any(film <= 0.0) or np.any(outside <= 0.0):
-            raise UsageError("Refractive indices must be positive.")
-        return cls(cosine, thickness, film, base, outside)
+        if not np.all((thickness >= 0.0) & np.isfinite(thickness)):
+            raise UsageError("The film thickness must be a finite number of nanometres, not negative.")
+        if not np.all((film > 0.0) & (outside > 0.0) & np.isfinite(film) & np.isfinite(outside)):
+            raise UsageError("The refractive indices of film and outside must be positive and finite.")
+        return cls(cosine, thickness, film, base, outside, film_ior_at)
 
     @property
     def shape(self) -> tuple[int, ...]:

@@ -18,7 +18,8 @@ from gltf_iri.optics.refraction import cos_theta_2_squared
 
 __all__ = [
     "MATCHED_F0",
-    "MAX_REFLECTANCE",
+    "MAX_F0",
+    "MAX_R123",
     "THIN_OPD_NM",
     "evaluate_khr_guarded",
     "iridescent_fresnel_khr_guarded",
@@ -26,14 +27,17 @@ __all__ = [
 
 Float64 = NDArray[np.float64]
 
-# Keeps the base index and 1/(1 − R123) finite for a perfect white metal.
-MAX_REFLECTANCE: Final = 0.9999
+# Keeps the index of a perfect white metal finite.
+MAX_F0: Final = 0.9999
 
-# Below this reflectance at normal incidence an interface's grazing reflectance shrinks with its contrast, so that
-# film = base and film = outside are no interface at all. Schlick alone lets them reflect everything at grazing.
+# Keeps the geometric series from its pole where both interfaces reflect everything.
+MAX_R123: Final = 0.9999
+
+# Below this reflectance at normal incidence an interface's grazing reflectance shrinks with its contrast, so
+# that film = base and film = outside are no interface at all; Schlick alone lets them reflect all at grazing.
 MATCHED_F0: Final = 0.005
 
-# Below this path difference the film fades into the bare base: the text's fringes do not vanish with thickness.
+# Below this path difference the film fades into the bare base, as the text's own fringes do not.
 THIN_OPD_NM: Final = 100.0
 
 _ORDERS = (1, 2)
@@ -60,7 +64,7 @@ def iridescent_fresnel_khr_guarded(
 
     R12 = f_schlick_matched(ior_to_fresnel0(n2, n1), c1)
     T121 = 1.0 - R12
-    base_ior = fresnel0_to_ior(np.clip(np.asarray(base_f0, dtype=np.float64), 0.0, MAX_REFLECTANCE))
+    base_ior = fresnel0_to_ior(np.clip(np.asarray(base_f0, dtype=np.float64), 0.0, MAX_F0))
     R23 = f_schlick_matched(ior_to_fresnel0(base_ior, n2), c2)
 
     opd_nm = 2.0 * n2 * d_nm * c2
@@ -69,7 +73,7 @@ def iridescent_fresnel_khr_guarded(
     phi = (np.pi - phi12) + phi23
 
     # No floor: it would draw fringes where an interface reflects nothing.
-    R123 = np.minimum(R12 * R23, MAX_REFLECTANCE)
+    R123 = np.minimum(R12 * R23, MAX_R123)
     r123 = np.sqrt(R123)
     Rs = T121 * T121 * R23 / (1.0 - R123)
 

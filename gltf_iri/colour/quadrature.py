@@ -1,0 +1,101 @@
+"""Quadrature rules for colour: which wavelengths to ask for, and with what weights.
+
+The integrand is a smooth reflectance times colour weights that are only piecewise smooth. So the reflectance
+alone is interpolated, by the polynomial through Chebyshev–Lobatto nodes in wavenumber ν = 1/λ (in which film
+fringes are plain cosines), and the weights are the exact integrals of that polynomial's Chebyshev terms against
+the observer and the illuminant (product integration; Trefethen, "Is Gauss Quadrature Better than
+Clenshaw–Curtis?", SIAM Review 2008, for the interpolation). A rule of twice the degree keeps every node.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM, colour_matching, illuminant, observer_table
+from gltf_iri.colour.spaces import XYZ_TO_REC709, White
+
+__all__ = ["HALF_BANDWIDTH_PER_NM", "ColourRule", "colour_rule", "colour_weights"]
+
+Float64 = NDArray[np.float64]
+
+_SHORTEST_NM, _LONGEST_NM = WAVELENGTH_RANGE_NM
+_MIDDLE_PER_NM: Final = 0.5 * (1.0 / _SHORTEST_NM + 1.0 / _LONGEST_NM)
+
+# Half the range of ν: cos(2πDν) turns through D·2π·this on [−1, 1], and needs a degree beyond that.
+HALF_BANDWIDTH_PER_NM: Final = 0.5 * (1.0 / _SHORTEST_NM - 1.0 / _LONGEST_NM)
+
+# Gauss points per panel of at most _PANEL_RAD of the fastest term's phase: 8 points integrate it to 1e-16.
+_GAUSS_POINTS: Final = 8
+_PANEL_RAD: Final = 2.0
+
+
+@dataclass(frozen=True, slots=True)
+class ColourRule:
+    """rgb = Σ reflectance(wavelength_nm[i]) · weights[i]; nodes run from short to long wavelengths."""
+
+    wavelength_nm: Float64  # (degree + 1,)
+    weights: Float64  # (degree + 1, 3); each column sums to 1
+
+
+@cache
+def colour_rule(degree: int, white: White) -> ColourRule:
+    """Return the rule of an even `degree`; its even-numbered nodes are those of half the degree."""
+    j = np.arange(degree + 1)
+    # sin form: symmetric to the last bit, so that doubled rules repeat their nodes exactly.
+    x = np.sin(0.5 * np.pi * (degree - 2 * j) / degree)
+    wavelength_nm = 1.0 / (_MIDDLE_PER_NM + HALF_BANDWIDTH_PER_NM * x)
+    moments = _moments(degree, white)
+    # Type-I cosine transform of the moments, end terms halved, gives the interpolant's weights.
+    halved = moments.copy()
+    halved[[0, -1]] *= 0.5
+    mirrored = np.concatenate([halved, halved[-2:0:-1]])
+    mirrored[[0, degree]] *= 2.0
+    weights = np.fft.rfft(mirrored, axis=0).real / degree
+    weights[[0, -1]] *= 0.5
+    weights /= weights.sum(axis=0)
+    for array in (wavelength_nm, weights):
+        array.setflags(write=False)
+    return ColourRule(wavelength_nm, weights)
+
+
+def colour_weights(wavelength_nm: Float64, white: White) -> Float64:
+    """Return the density (..., 3) with rgb = ∫ R(λ) density(λ) dλ, up to each channel's normalisation."""
+    return (colour_matching(wavelength_nm) * illuminant(wavelength_nm, white)[..., None]) @ XYZ_TO_REC709.T
+
+
+def _moments(degree: int, white: White) -> Float64:
+    """Return ∫ density(λ) T_k(x(λ)) dλ for k = 0 … degree, shape (degree + 1, 3), normalised to T₀ → 1."""
+    theta, weighted = _panels(degree, white)
+    # cos((s i + j)θ) = cos(s i θ) cos(jθ) − sin(s i θ) sin(jθ): two small tables and a matrix product.
+    stride = int(np.sqrt(degree)) + 1
+    fine = np.arange(stride)[:, None] * theta
+    coarse = stride * np.arange(stride)[:, None] * theta
+    cos_fine, sin_fine = np.cos(fine), np.sin(fine)
+    cos_coarse, sin_coarse = np.cos(coarse), np.sin(coarse)
+    columns = [
+        ((cos_coarse * w) @ cos_fine.T - (sin_coarse * w) @ sin_fine.T).reshape(-1)[: degree + 1]
+        for w in weighted.T
+    ]
+    moments = np.stack(columns, axis=-1)
+    return moments / moments[0]
+
+
+def _panels(degree: int, white: White) -> tuple[Float64, Float64]:
+    """Return Gauss points θ = arccos x and the colour density times their weights, panel by panel.
+
+    Panels end at every kink of the density and are short against the fastest Chebyshev term cos(degree·θ).
+    """
+    steps = int(np.ceil(degree * np.pi / _PANEL_RAD))
+    x = np.cos(np.linspace(0.0, np.pi, steps + 1)[1:-1])
+    edges_nm = np.union1d(observer_table()[:, 0], 1.0 / (_MIDDLE_PER_NM + HALF_BANDWIDTH_PER_NM * x))
+    nodes, gauss = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
+    half = 0.5 * np.diff(edges_nm)[:, None]
+    wavelength_nm = (edges_nm[:-1, None] + half + half * nodes).reshape(-1)
+    density = colour_weights(wavelength_nm, white) * (half * gauss).reshape(-1, 1)
+    x = (1.0 / wavelength_nm - _MIDDLE_PER_NM) / HALF_BANDWIDTH_PER_NM
+    return np.arccos(np.clip(x, -1.0, 1.0)), density  # rounding may put an end a hair outside [−1, 1]
