@@ -1,0 +1,212 @@
+"""Puts shapes, textures, materials, cameras and lights into a glTF file.
+
+The object model is pygltflib's; it is imported when the first builder is made, because it is slow to load.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gltf_iri.samples.rounding import rounded, rounded_list
+from gltf_iri.samples.shapes import Shape
+
+__all__ = ["GLTFBuilder", "facing"]
+
+_FLOAT, _UNSIGNED_SHORT = 5126, 5123
+_VERTICES, _INDICES = 34962, 34963  # bufferView.target
+_NEAREST, _LINEAR, _LINEAR_MIPMAP_LINEAR = 9728, 9729, 9987
+_REPEAT, _CLAMP = 10497, 33071
+
+
+def facing(eye: ArrayLike, target: ArrayLike) -> list[float]:
+    """Return the unit quaternion (x, y, z, w) that turns −Z towards `target` and keeps +Y up.
+
+    Cameras and lights look along −Z (glTF 2.0 §3.10, KHR_lights_punctual).
+    """
+    towards = np.asarray(target, dtype=np.float64) - np.asarray(eye, dtype=np.float64)
+    x, y, z = towards / np.linalg.norm(towards)
+    yaw, pitch = np.arctan2(-x, -z), np.arcsin(y)
+    half = np.cos(yaw / 2), np.sin(yaw / 2), np.cos(pitch / 2), np.sin(pitch / 2)
+    quaternion = (half[0] * half[3], half[1] * half[2], -half[1] * half[3], half[0] * half[2])
+    return rounded_list(quaternion)
+
+
+class GLTFBuilder:
+    """One asset in the making; `to_glb` and `to_gltf` finish it."""
+
+    def __init__(self, name: str) -> None:
+        import pygltflib
+
+        self._model = pygltflib
+        self._name = name
+        self._binary = bytearray()
+        self._images: list[tuple[str, bytes]] = []
+        self._lights: list[dict[str, Any]] = []
+        self._gltf = pygltflib.GLTF2(
+            asset=pygltflib.Asset(
+                generator="gltf-iri samples", copyright="gltf-iri contributors, Apache-2.0"
+            ),
+            scene=0,
+            scenes=[pygltflib.Scene(name=name, nodes=[])],
+        )
+
+    def texture(self, name: str, png: bytes, *, nearest: bool = False, repeat: bool = False) -> int:
+        """Add an image with its own sampler and return the texture's index.
+
+        `nearest` keeps texels apart, for textures that hold exact values side by side.
+        """
+        wrap = _REPEAT if repeat else _CLAMP
+        filters = (_NEAREST, _NEAREST) if nearest else (_LINEAR, _LINEAR_MIPMAP_LINEAR)
+        sampler = self._model.Sampler(magFilter=filters[0], minFilter=filters[1], wrapS=wrap, wrapT=wrap)
+        self._gltf.samplers.append(sampler)
+        self._images.append((name, png))
+        index = len(self._images) - 1
+        self._gltf.textures.append(self._model.Texture(name=name, sampler=index, source=index))
+        return index
+
+    def material(
+        self,
+        name: str,
+        *,
+        base_color: ArrayLike,
+        metallic: float,
+        roughness: float,
+        extensions: Mapping[str, Mapping[str, Any]],
+        normal_texture: int | None = None,
+        normal_repeats: float = 1.0,
+        double_sided: bool = False,
+    ) -> int:
+        """Add a material and return its index; `base_color` is linear Rec.709, (3,).
+
+        The normal texture is laid `normal_repeats` times along u and along v.
+        """
+        metallic_roughness = self._model.PbrMetallicRoughness(
+            baseColorFactor=[*rounded_list(base_color), 1.0],
+            metallicFactor=metallic,
+            roughnessFactor=roughness,
+        )
+        material = self._model.Material(
+            name=name,
+            pbrMetallicRoughness=metallic_roughness,
+            extensions={key: dict(value) for key, value in extensions.items()},
+            doubleSided=double_sided,
+        )
+        if normal_texture is not None:
+            transform = {"KHR_texture_transform": {"scale": [normal_repeats, normal_repeats]}}
+            material.normalTexture = self._model.NormalMaterialTexture(
+                index=normal_texture, extensions=transform
+            )
+            self._use("KHR_texture_transform")
+        self._gltf.materials.append(material)
+        self._use(*extensions)
+        return len(self._gltf.materials) - 1
+
+    def mesh(self, name: str, shape: Shape, material: int) -> None:
+        """Add a mesh and the node that holds it."""
+        attributes = self._model.Attributes(
+            POSITION=self._vertices(shape.positions, "VEC3", bounded=True),
+            NORMAL=self._vertices(shape.normals, "VEC3"),
+            TEXCOORD_0=self._vertices(shape.uvs, "VEC2") if self._has_textures(material) else None,
+            TANGENT=self._vertices(shape.tangents, "VEC4") if self._has_normals(material) else None,
+        )
+        indices = self._accessor(shape.triangles.ravel(), "SCALAR", _UNSIGNED_SHORT, _INDICES)
+        primitive = self._model.Primitive(attributes=attributes, indices=indices, material=material)
+        self._gltf.meshes.append(self._model.Mesh(name=name, primitives=[primitive]))
+        self._place(self._model.Node(name=name, mesh=len(self._gltf.meshes) - 1))
+
+    def perspective_camera(self, eye: ArrayLike, target: ArrayLike, yfov_rad: float) -> None:
+        """Add a camera at `eye` (m) that looks at `target`."""
+        distance = float(np.linalg.norm(np.subtract(target, eye)))
+        lens = self._model.Perspective(
+            yfov=round(yfov_rad, 6), znear=round(distance / 20, 6), zfar=round(distance * 20, 6)
+        )
+        self._camera(self._model.Camera(name="camera", type="perspective", perspective=lens), eye, target)
+
+    def orthographic_camera(self, eye: ArrayLike, target: ArrayLike, xmag_m: float, ymag_m: float) -> None:
+        """Add a camera with parallel rays: every part of a flat sample is seen under one angle."""
+        distance = float(np.linalg.norm(np.subtract(target, eye)))
+        lens = self._model.Orthographic(xmag=xmag_m, ymag=ymag_m, znear=0.0, zfar=round(distance * 4, 6))
+        self._camera(self._model.Camera(name="camera", type="orthographic", orthographic=lens), eye, target)
+
+    def directional_light(self, towards: ArrayLike, lux: float) -> None:
+        """Add a white light that travels in the direction `towards`."""
+        self._lights.append({"name": "sun", "type": "directional", "intensity": lux})
+        extension = {"KHR_lights_punctual": {"light": len(self._lights) - 1}}
+        self._place(self._model.Node(name="sun", rotation=facing((0, 0, 0), towards), extensions=extension))
+        self._use("KHR_lights_punctual")
+
+    def to_glb(self) -> dict[str, bytes]:
+        """Return the asset as one binary file."""
+        for name, png in self._images:
+            view = self._view(png, None)
+            self._gltf.images.append(self._model.Image(name=name, mimeType="image/png", bufferView=view))
+        self._finish(uri=None)
+        self._gltf.set_binary_blob(bytes(self._binary))
+        return {f"{self._name}.glb": b"".join(self._gltf.save_to_bytes())}
+
+    def to_gltf(self) -> dict[str, bytes]:
+        """Return the asset as JSON with a .bin and PNG files beside it."""
+        pictures = {f"{name}.png": png for name, png in self._images}
+        for name, _ in self._images:
+            self._gltf.images.append(self._model.Image(name=name, uri=f"{name}.png"))
+        self._finish(uri=f"{self._name}.bin")
+        text = self._gltf.gltf_to_json(indent=2) + "\n"
+        return {f"{self._name}.gltf": text.encode(), f"{self._name}.bin": bytes(self._binary), **pictures}
+
+    def _finish(self, uri: str | None) -> None:
+        self._gltf.buffers.append(self._model.Buffer(byteLength=len(self._binary), uri=uri))
+        if self._lights:
+            self._gltf.extensions["KHR_lights_punctual"] = {"lights": self._lights}
+
+    def _use(self, *extensions: str) -> None:
+        self._gltf.extensionsUsed = sorted({*self._gltf.extensionsUsed, *extensions})
+
+    def _has_textures(self, material: int) -> bool:
+        extensions = self._gltf.materials[material].extensions.values()
+        return self._has_normals(material) or any(key.endswith("Texture") for e in extensions for key in e)
+
+    def _has_normals(self, material: int) -> bool:
+        return self._gltf.materials[material].normalTexture is not None
+
+    def _place(self, node: Any) -> None:
+        self._gltf.nodes.append(node)
+        self._gltf.scenes[0].nodes.append(len(self._gltf.nodes) - 1)
+
+    def _camera(self, camera: Any, eye: ArrayLike, target: ArrayLike) -> None:
+        self._gltf.cameras.append(camera)
+        index = len(self._gltf.cameras) - 1
+        self._place(
+            self._model.Node(
+                name="camera", camera=index, translation=rounded_list(eye), rotation=facing(eye, target)
+            )
+        )
+
+    def _vertices(self, values: NDArray[np.float64], kind: str, *, bounded: bool = False) -> int:
+        """Add one attribute; POSITION must state its bounds (glTF 2.0 §3.7.2.1)."""
+        data = rounded(values).astype(np.float32)
+        index = self._accessor(data, kind, _FLOAT, _VERTICES)
+        if bounded:
+            self._gltf.accessors[index].min = [float(low) for low in data.min(axis=0)]
+            self._gltf.accessors[index].max = [float(high) for high in data.max(axis=0)]
+        return index
+
+    def _accessor(self, data: NDArray[Any], kind: str, component_type: int, target: int) -> int:
+        little_endian = data.astype(data.dtype.newbyteorder("<"), copy=False)
+        view = self._view(little_endian.tobytes(), target)
+        self._gltf.accessors.append(
+            self._model.Accessor(bufferView=view, componentType=component_type, count=len(data), type=kind)
+        )
+        return len(self._gltf.accessors) - 1
+
+    def _view(self, content: bytes, target: int | None) -> int:
+        view = self._model.BufferView(
+            buffer=0, byteOffset=len(self._binary), byteLength=len(content), target=target
+        )
+        self._gltf.bufferViews.append(view)
+        self._binary += content + bytes(-len(content) % struct.calcsize("I"))  # the next view starts aligned
+        return len(self._gltf.bufferViews) - 1

@@ -1,0 +1,85 @@
+"""All samples, and how they reach a folder."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Mapping
+from importlib import import_module
+from pathlib import Path
+
+from gltf_iri.errors import UsageError
+from gltf_iri.samples.sample import Sample
+
+__all__ = ["NAMES", "build_samples", "collection_files", "write_samples"]
+
+NAMES = (
+    "soap-bubble",
+    "oil-on-metal",
+    "anodised-ramp",
+    "pearl",
+    "beetle",
+    "thickness-swatches",
+    "angle-fan",
+)
+
+_INDEX = "index.json"
+_WRITER = "gltf-iri samples"
+
+
+def build_samples() -> tuple[Sample, ...]:
+    """Build every sample, in the order of `NAMES`; each is `build()` of its own module."""
+    modules = (import_module(f"gltf_iri.samples.{name.replace('-', '_')}") for name in NAMES)
+    return tuple(module.build() for module in modules)
+
+
+def collection_files() -> Mapping[str, bytes]:
+    """Return every file of the collection, path relative to its folder → content."""
+    samples = build_samples()
+    index = {
+        "generator": _WRITER,
+        "samples": [{"name": s.name, "title": s.title, "file": s.file, "shows": s.shows} for s in samples],
+    }
+    files = {_INDEX: (json.dumps(index, indent=2, ensure_ascii=False) + "\n").encode()}
+    for sample in samples:
+        files[f"{sample.name}/README.md"] = sample.readme.encode()
+        files |= {f"{sample.name}/{name}": content for name, content in sample.files.items()}
+    return files
+
+
+def write_samples(folder: Path) -> list[Path]:
+    """Write the collection into `folder` and return the paths written; an earlier collection is replaced.
+
+    Raises UsageError where `folder` holds something else: files that are not ours are never overwritten.
+    """
+    if folder.exists() and not folder.is_dir():
+        raise UsageError(f"{folder} is not a folder: name another one.")
+    if folder.is_dir() and any(folder.iterdir()) and not _is_ours(folder / _INDEX):
+        raise UsageError(f"{folder} holds other files than the samples: name an empty folder.")
+    files = collection_files()
+    return [_write(folder / name, files[name]) for name in files]
+
+
+def _is_ours(index: Path) -> bool:
+    try:
+        content = json.loads(index.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return False
+    return isinstance(content, dict) and content.get("generator") == _WRITER
+
+
+def _write(path: Path, content: bytes) -> Path:
+    """Write all of a file or nothing, so that an interrupted run leaves no half of a sample."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as unfinished:
+        unfinished.write(content)
+    temporary = Path(unfinished.name)
+    temporary.chmod(0o666 & ~_umask())
+    return temporary.replace(path)
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask
