@@ -1,0 +1,41 @@
+"""Words for errors: JSON Pointers and values, made safe to print."""
+
+from __future__ import annotations
+
+__all__ = ["join", "kind_of", "shown"]
+
+_LONGEST = 60
+
+_KINDS: dict[type, str] = {
+    dict: "an object",
+    list: "an array",
+    str: "text",
+    bool: "true or false",
+    int: "a number",
+    float: "a number",
+    type(None): "null",
+}
+
+
+def join(pointer: str, key: str | int) -> str:
+    """Append one token to a JSON Pointer (RFC 6901), escaping what a terminal must not receive."""
+    token = str(key).replace("~", "~0").replace("/", "~1")
+    if not token.isprintable():
+        token = token.encode("unicode_escape", "backslashreplace").decode("ascii")
+    return f"{pointer}/{_shortened(token)}"
+
+
+def shown(value: object) -> str:
+    """Quote a value of the file: escaped, and cut where it is long (a data URI may have megabytes)."""
+    if isinstance(value, dict | list):
+        return kind_of(value)
+    return _shortened(repr(value[: 2 * _LONGEST] if isinstance(value, str) else value))
+
+
+def kind_of(value: object) -> str:
+    """Name the JSON type of a parsed value."""
+    return _KINDS[type(value)]
+
+
+def _shortened(text: str) -> str:
+    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
