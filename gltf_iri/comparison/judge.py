@@ -70,6 +70,7 @@ def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Compariso
         drawn=inputs.material >= 0,
         deviation=np.zeros(canvas.shape[:2]),
         delta_e=np.zeros(canvas.shape[:2]),
+        texture_delta_e=None if coarse is None else np.zeros(canvas.shape[:2]),
     )
     compared = np.zeros(canvas.shape[:2], dtype=np.bool_)
     results = []
@@ -77,6 +78,8 @@ def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Compariso
         pixels = gather(inputs, mask, shot.camera)
         results.append(_judge_material(shot, plan, pixels, inputs, mask, pictures, compared, coarse_inputs))
     _draw_differences(pictures, compared, shot.exposure)
+    if coarse_inputs is not None:
+        _draw_texture_difference(pictures, inputs, coarse_inputs, shot.exposure)
     whole = PictureResult(
         _split(inputs, compared, pictures),
         colour_error(pictures.python[compared], pictures.truth[compared], exposure=shot.exposure),
@@ -134,9 +137,7 @@ def _judge_material(
         method_white=film_mine.white,
         truth_white=film_exact.white,
         method_vs_truth=colour_error(film_mine.rgb[seen], film_exact.rgb[seen]),
-        picture_vs_truth=colour_error(
-            mine.rgb[~undefined], exact.rgb[~undefined], exposure=shot.exposure
-        ),
+        picture_vs_truth=colour_error(mine.rgb[~undefined], exact.rgb[~undefined], exposure=shot.exposure),
     )
 
 
@@ -183,6 +184,18 @@ def _draw_differences(pictures: Pictures, compared: Mask, exposure: float) -> No
     rows = compared & np.all(np.isfinite(pictures.glsl) & np.isfinite(pictures.truth), axis=-1)
     pictures.deviation[rows] = relative_deviation(pictures.glsl[rows], pictures.python[rows])
     pictures.delta_e[rows] = delta_e_2000(exposure * pictures.python[rows], exposure * pictures.truth[rows])
+
+
+def _draw_texture_difference(
+    pictures: Pictures, inputs: ShadingInputs, coarse: ShadingInputs, exposure: float
+) -> None:
+    if pictures.texture_delta_e is None:
+        return
+    rows = pictures.drawn & (coarse.material == inputs.material)
+    rows &= np.all(np.isfinite(coarse.colour) & np.isfinite(inputs.colour), axis=-1)
+    pictures.texture_delta_e[rows] = delta_e_2000(
+        exposure * coarse.colour[rows], exposure * inputs.colour[rows]
+    )
 
 
 def _any_case(undefined: Mapping[str, Mask], count: int) -> Mask:

@@ -89,6 +89,7 @@ class Pictures:
     drawn: NDArray[np.bool_]  # (height, width)
     deviation: Float64  # (height, width), |GLSL − Python| / max(1, |Python|)
     delta_e: Float64  # (height, width), the method's picture against truth, after exposure
+    texture_delta_e: Float64 | None  # (height, width), GLSL with 8-bit textures against float ones
 
 
 @dataclass(frozen=True, slots=True)

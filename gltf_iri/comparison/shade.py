@@ -108,9 +108,7 @@ def film_reflectance(pixels: Pixels, plan: MaterialPlan, film_ior: float, method
 def _image_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt | None) -> Float64:
     """Split sum: plain = F0·A + B, film = F(N·V)·(A + B); radiance and irradiance were prefiltered."""
     a, b = pixels.dfg_a[:, None], pixels.dfg_b[:, None]
-    dielectric, metal = _surfaces(
-        pixels, plan, film, pixels.n_dot_v, lambda f0: f0 * a + b, film_scale=a + b
-    )
+    dielectric, metal = _surfaces(pixels, plan, film, pixels.n_dot_v, lambda f0: f0 * a + b, film_scale=a + b)
     through = dielectric.base_weight[:, None] * pixels.base_color * pixels.irradiance
     return _by_metalness(
         pixels,
@@ -136,9 +134,7 @@ def _punctual_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt | None, li
         pixels, plan, film, v_dot_h, lambda f0: f_schlick(f0, v_dot_h[:, None]), film_scale=np.ones((1, 1))
     )
     through = dielectric.base_weight[:, None] * pixels.base_color / np.pi
-    reflected = _by_metalness(
-        pixels, through + dielectric.specular * lobe[:, None], metal * lobe[:, None]
-    )
+    reflected = _by_metalness(pixels, through + dielectric.specular * lobe[:, None], metal * lobe[:, None])
     return illuminance * n_dot_l[:, None] * reflected
 
 

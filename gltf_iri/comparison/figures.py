@@ -1,0 +1,66 @@
+"""The pictures of a comparison as PNG bytes: what was drawn, and maps of the differences with a colour bar."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.tolerances import GLSL_PIXEL_RELATIVE
+
+__all__ = ["delta_e_map", "deviation_map"]
+
+Float64 = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+# Readable on white and on near-black alike, for the maps are transparent around their pixels.
+_INK = "#7d8590"
+
+# float32 cannot agree better than this; the colour scale starts here.
+_DEVIATION_FLOOR = 1e-8
+
+
+def deviation_map(deviation: Float64, drawn: Mask) -> bytes:
+    """Draw |GLSL − Python| / max(1, |Python|) on a logarithmic scale whose top is the tolerance or the maximum."""
+    from matplotlib.colors import LogNorm
+
+    top = max(GLSL_PIXEL_RELATIVE, float(np.max(deviation, initial=0.0)))
+    values = np.maximum(deviation, _DEVIATION_FLOOR)
+    return _map(
+        values, drawn, LogNorm(_DEVIATION_FLOOR, top), "|GLSL − Python| / max(1, |Python|)", "viridis"
+    )
+
+
+def delta_e_map(delta_e: Float64, drawn: Mask) -> bytes:
+    """Draw ΔE2000 on a linear scale from 0 to its maximum, at least 1 (what an eye just tells apart)."""
+    from matplotlib.colors import Normalize
+
+    top = max(1.0, float(np.max(delta_e, initial=0.0)))
+    return _map(delta_e, drawn, Normalize(0.0, top), "ΔE2000", "inferno")
+
+
+def _map(values: Float64, drawn: Mask, norm: object, label: str, colours: str) -> bytes:
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+
+    height, width = values.shape
+    picture_in = 5.0
+    figure = Figure(figsize=(picture_in, picture_in * height / width + 0.75), dpi=128)
+    FigureCanvasAgg(figure)
+    figure.patch.set_alpha(0.0)
+    share = 0.75 / (picture_in * height / width + 0.75)
+    axes = figure.add_axes((0.0, share, 1.0, 1.0 - share))
+    axes.set_axis_off()
+    image = axes.imshow(
+        np.ma.masked_array(values, ~drawn), norm=norm, cmap=colours, interpolation="nearest", aspect="auto"
+    )
+    bar = figure.colorbar(
+        image, cax=figure.add_axes((0.06, share * 0.72, 0.88, share * 0.14)), orientation="horizontal"
+    )
+    bar.outline.set_visible(False)
+    bar.ax.tick_params(colors=_INK, labelsize=8)
+    bar.set_label(label, color=_INK, fontsize=9)
+    stream = io.BytesIO()
+    figure.savefig(stream, format="png")
+    return stream.getvalue()
