@@ -13,7 +13,7 @@ from gltf_iri.errors import AssetError
 from gltf_iri.material.fields import Kind, properties
 from gltf_iri.material.material import Material
 from gltf_iri.scene.camera import read_camera
-from gltf_iri.scene.light import light_of_node, read_light
+from gltf_iri.scene.light import light_of_node
 from gltf_iri.scene.mesh import read_primitive
 from gltf_iri.scene.model import Camera, Light, Primitive, Scene
 from gltf_iri.scene.morph import default_weights
@@ -52,14 +52,14 @@ def assemble_scene(document: Document, materials: tuple[Material, ...], index: i
             description = document.json["cameras"][node["camera"]]
             label = str(description.get("name", "")) or called
             cameras.append(read_camera(description, worlds[i], label, f"/cameras/{node['camera']}"))
-        carried = light_of_node(document.json, node, f"/nodes/{i}")
-        if carried is not None:
-            label = str(carried[0].get("name", "")) or called
-            lights.append(read_light(carried[0], worlds[i], label, carried[1]))
+        light = light_of_node(document.json, node, worlds[i], f"/nodes/{i}")
+        if light is not None:
+            lights.append(light)
 
     if not primitives:
+        passed_over = [note.rstrip(".") for note in notes if note.startswith("/meshes")]
         raise AssetError(
-            "the scene has no triangles to draw" + (f": {notes[-1].rstrip('.')}" if notes else ""),
+            ": ".join(["the scene has no triangles to draw", *passed_over[:1]]),
             pointer="/scenes" if document.json.get("scenes") else "/nodes",
         )
     notes.extend(_missing_uv_sets(primitives, materials))

@@ -8,7 +8,7 @@ from typing import Any, Final
 from gltf_iri.errors import AssetError
 from gltf_iri.material.fields import Kind, properties
 from gltf_iri.material.material import Material
-from gltf_iri.scene import light
+from gltf_iri.scene.light import PunctualLight
 
 __all__ = ["check_extensions", "supported_extensions"]
 
@@ -32,7 +32,7 @@ _REMEDIES: Final[Mapping[str, str]] = {
 
 def supported_extensions() -> tuple[str, ...]:
     """Return the names of the extensions that may be required, sorted."""
-    return tuple(sorted({*_stated(Material), light.EXTENSION, *_DECODED, *_PASSED_OVER}))
+    return tuple(sorted({*_stated(Material), PunctualLight.EXTENSION, *_DECODED, *_PASSED_OVER}))
 
 
 def check_extensions(document: Mapping[str, Any], notes: list[str]) -> None:

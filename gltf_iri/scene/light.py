@@ -1,108 +1,120 @@
-"""Punctual lights: KHR_lights_punctual."""
+"""Punctual lights: KHR_lights_punctual, stated as property rows, placed by the nodes that carry them."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Final
+from dataclasses import dataclass
+from typing import Any, ClassVar, Final, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.errors import AssetError
+from gltf_iri.material.fields import choice, index, nested, number, text, vector
+from gltf_iri.material.parse import Rows
 from gltf_iri.scene.model import Light
 
-__all__ = ["EXTENSION", "light_of_node", "read_light"]
+__all__ = ["PunctualLight", "Spot", "light_of_node"]
 
 Float64 = NDArray[np.float64]
 Json = Mapping[str, Any]
 
-EXTENSION: Final = "KHR_lights_punctual"
-
-_KINDS: Final = ("directional", "point", "spot")
-
-
-def light_of_node(document: Json, node: Json, pointer: str) -> tuple[Json, str] | None:
-    """Return the light object that a node carries and its JSON Pointer, or None.
-
-    Raises AssetError where the node refers to a light that does not exist.
-    """
-    carried = _object(node.get("extensions", {}), EXTENSION, f"{pointer}/extensions")
-    if not carried:
-        return None
-    where = f"{pointer}/extensions/{EXTENSION}/light"
-    listed = _object(document.get("extensions", {}), EXTENSION, "/extensions").get("lights")
-    index = carried.get("light")
-    if isinstance(index, bool) or not isinstance(index, int) or not isinstance(listed, list):
-        raise AssetError(
-            "the node refers to no light of /extensions/KHR_lights_punctual/lights", pointer=where
-        )
-    if not 0 <= index < len(listed):
-        raise AssetError(f"there is no light {index}; the file has {len(listed)}", pointer=where)
-    at = f"/extensions/{EXTENSION}/lights/{index}"
-    if not isinstance(listed[index], Mapping):
-        raise AssetError("a light must be an object", pointer=at)
-    return listed[index], at
+# π/2 as float32 holds it lies a little above π/2, and exporters pass angles through float32.
+_RIGHT_ANGLE_RAD: Final = float(np.float32(math.pi / 2.0))
 
 
-def read_light(description: Json, world: Float64, name: str, pointer: str) -> Light:
-    """Return the light of a node whose world transform is `world` (4, 4).
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """The cone of a spot light."""
 
-    It shines along the node's −Z; the node's scale changes neither intensity nor range. Raises AssetError
-    where a value is out of its range.
-    """
-    kind = description.get("type")
-    if kind not in _KINDS:
-        raise AssetError(f"the type of a light must be one of {', '.join(_KINDS)}", pointer=f"{pointer}/type")
-    direction = -world[:3, 2]
-    length = float(np.linalg.norm(direction))
-    if kind != "point" and not length > 0.0:
-        raise AssetError("the light's node is scaled to 0, so it shines nowhere", pointer=pointer)
-    inner, outer = 0.0, math.pi / 4.0
-    if kind == "spot":
-        spot = _object(description, "spot", pointer)
-        inner = _number(spot, "innerConeAngle", 0.0, f"{pointer}/spot")
-        outer = _number(spot, "outerConeAngle", math.pi / 4.0, f"{pointer}/spot")
-        if not 0.0 <= inner < outer <= math.pi / 2.0 * (1.0 + 1e-6):  # π/2 may have passed through float32
-            raise AssetError(
-                "the cone wants 0 ≤ innerConeAngle < outerConeAngle ≤ π/2", pointer=f"{pointer}/spot"
-            )
-    reach = _number(description, "range", math.inf, pointer)
-    if not reach > 0.0:
-        raise AssetError("the range must be positive", pointer=f"{pointer}/range")
-    return Light(
-        name=name,
-        kind=kind,
-        colour=_colour(description, pointer),
-        intensity=_number(description, "intensity", 1.0, pointer, low=0.0),
-        position=world[:3, 3].copy(),
-        direction=direction / length if length > 0.0 else np.array([0.0, 0.0, -1.0]),
-        range_m=None if kind == "directional" or math.isinf(reach) else reach,
-        inner_cone_rad=inner,
-        outer_cone_rad=outer,
+    inner_cone_rad: float = number(
+        "innerConeAngle", 0.0, "Angle from the axis where the light begins to fade.", low=0.0, unit="rad"
+    )
+    outer_cone_rad: float = number(
+        "outerConeAngle",
+        math.pi / 4.0,
+        "Angle from the axis where it is gone.",
+        low=0.0,
+        high=_RIGHT_ANGLE_RAD,
+        low_is_excluded=True,
+        unit="rad",
     )
 
 
-def _colour(description: Json, pointer: str) -> tuple[float, float, float]:
-    colour = description.get("color", (1.0, 1.0, 1.0))
-    where = f"{pointer}/color"
-    if not isinstance(colour, list | tuple) or len(colour) != 3:
-        raise AssetError("the colour must have three channels", pointer=where)
-    red, green, blue = (_number({"color": c}, "color", 1.0, pointer, low=0.0) for c in colour)
-    return red, green, blue
+@dataclass(frozen=True, slots=True)
+class PunctualLight:
+    """One entry of the extension's ``lights``."""
+
+    EXTENSION: ClassVar[str] = "KHR_lights_punctual"
+    KINDS: ClassVar[tuple[str, ...]] = ("directional", "point", "spot")
+
+    name: str = text("name", "", "Name for people.")
+    kind: str = choice("type", "", KINDS, "What the light is; it has no default.")
+    color: tuple[float, float, float] = vector(
+        "color", (1.0, 1.0, 1.0), "Colour of the light.", low=0.0, high=1.0, colour_space="linear"
+    )
+    intensity: float = number(
+        "intensity", 1.0, "Candela for point and spot, lux for directional.", low=0.0, unit="cd or lx"
+    )
+    range_m: float | None = number(
+        "range",
+        None,
+        "Distance where the light ends; absent, nowhere.",
+        low=0.0,
+        low_is_excluded=True,
+        unit="m",
+    )
+    spot: Spot = nested("spot", Spot, "The cone of a spot light.")  # noqa: RUF009 — it returns a field
 
 
-def _number(description: Json, key: str, default: float, pointer: str, *, low: float | None = None) -> float:
-    value = description.get(key, default)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise AssetError(f"{key} must be a number", pointer=f"{pointer}/{key}")
-    if low is not None and value < low:
-        raise AssetError(f"{key} must not be below {low:g}", pointer=f"{pointer}/{key}")
-    return float(value)
+@dataclass(frozen=True, slots=True)
+class _Reference:
+    light: int | None = index("light", None, "The light that the node carries.")
 
 
-def _object(description: Json, key: str, pointer: str) -> Json:
-    value = description.get(key, {})
-    if not isinstance(value, Mapping):
-        raise AssetError(f"{key} must be an object", pointer=f"{pointer}/{key}")
-    return value
+def light_of_node(document: Json, node: Json, world: Float64, pointer: str) -> Light | None:
+    """Return the light that a node carries, or None; `world` (4, 4) is the node's transform.
+
+    It shines along the node's −Z; the node's scale changes neither intensity nor range. Raises AssetError
+    where the light does not exist or a value is out of its range.
+    """
+    name = PunctualLight.EXTENSION
+    carried = node.get("extensions", {}).get(name)
+    if carried is None:
+        return None
+    rows = Rows(document)
+    referred = rows.build(_Reference, carried, f"{pointer}/extensions/{name}").light
+    root = document.get("extensions", {}).get(name)
+    listed = root.get("lights") if isinstance(root, dict) else None
+    count = len(listed) if isinstance(listed, list) else 0
+    if listed is None or referred is None or referred >= count:
+        raise AssetError(
+            f"the node refers to a light that does not exist; the file has {count}",
+            pointer=f"{pointer}/extensions/{name}/light",
+        )
+    where = f"/extensions/{name}/lights/{referred}"
+    stated = rows.build(PunctualLight, listed[referred], where)
+    if not stated.kind:
+        raise AssetError("the required property 'type' is missing; add it", pointer=where)
+    if stated.kind == "spot" and not stated.spot.inner_cone_rad < stated.spot.outer_cone_rad:
+        raise AssetError("innerConeAngle must be less than outerConeAngle", pointer=f"{where}/spot")
+    return _placed(stated, world, str(node.get("name", "")), pointer)
+
+
+def _placed(stated: PunctualLight, world: Float64, node_name: str, pointer: str) -> Light:
+    direction = -world[:3, 2]
+    length = float(np.linalg.norm(direction))
+    if stated.kind != "point" and not length > 0.0:
+        raise AssetError("the light's node is scaled to 0, so it shines nowhere", pointer=pointer)
+    return Light(
+        name=stated.name or node_name,
+        kind=cast(Any, stated.kind),
+        colour=stated.color,
+        intensity=stated.intensity,
+        position=world[:3, 3].copy(),
+        direction=direction / length if length > 0.0 else np.array([0.0, 0.0, -1.0]),
+        range_m=None if stated.kind == "directional" else stated.range_m,
+        inner_cone_rad=stated.spot.inner_cone_rad,
+        outer_cone_rad=stated.spot.outer_cone_rad,
+    )

@@ -31,7 +31,8 @@ class Model:
     def scene(self, index: int | None = None) -> Scene:
         """Return scene `index`, or the file's default scene.
 
-        Raises AssetError where the scene does not exist, contradicts itself or has nothing to draw.
+        Raises UsageError where there is no such scene, AssetError where it contradicts itself or holds no
+        triangles.
         """
         with _naming(self.path):
             return assemble_scene(self.document, self.materials, index)
@@ -57,6 +58,6 @@ def _naming(path: Path) -> Iterator[None]:
     try:
         yield
     except AssetError as error:
-        if error.file is not None:
-            raise
-        raise AssetError(error.what, pointer=error.pointer, offset=error.offset, file=path) from error
+        if error.file is None:
+            error.file = path
+        raise

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.errors import AssetError
+from gltf_iri.errors import AssetError, UsageError
 
 __all__ = ["choose_scene", "local_matrix", "nodes_of_scene", "rotation_matrix", "world_matrices"]
 
@@ -61,33 +61,21 @@ def local_matrix(node: Json, pointer: str, notes: list[str]) -> Float64:
 def world_matrices(document: Json, notes: list[str]) -> tuple[Float64, ...]:
     """Return every node's world transform, (4, 4) each, in the order of the file.
 
-    Nodes outside the scene are placed too: a skin may name them. Raises AssetError where the graph is not a
-    set of trees: a node with two parents, or a circle.
+    Nodes outside the scene are placed too: a skin may name them. That the nodes form trees, the asset's door
+    has checked.
     """
     nodes: Sequence[Json] = document.get("nodes", ())
-    parents = _parents(nodes)
-    worlds: list[Float64 | None] = [None] * len(nodes)
-    waiting = [i for i, parent in enumerate(parents) if parent is None]
+    worlds = [np.eye(4)] * len(nodes)
+    waiting = [(root, np.eye(4)) for root in _roots(nodes)]
     while waiting:
-        index = waiting.pop()
-        world = local_matrix(nodes[index], f"/nodes/{index}", notes)
-        parent = parents[index]
-        above = None if parent is None else worlds[parent]
-        worlds[index] = world if above is None else above @ world
-        waiting.extend(nodes[index].get("children", ()))
-    for index, placed in enumerate(worlds):
-        if placed is None:
-            raise AssetError(
-                "the node is its own ancestor; the node graph must be trees", pointer=f"/nodes/{index}"
-            )
-    return tuple(world for world in worlds if world is not None)
+        index, above = waiting.pop()
+        worlds[index] = above @ local_matrix(nodes[index], f"/nodes/{index}", notes)
+        waiting.extend((child, worlds[index]) for child in nodes[index].get("children", ()))
+    return tuple(worlds)
 
 
 def nodes_of_scene(document: Json, roots: Sequence[int]) -> Iterator[int]:
-    """Yield the indices of the nodes under `roots`, parents first, in the order of the file.
-
-    Call after `world_matrices`, which has established that the graph is made of trees.
-    """
+    """Yield the indices of the nodes under `roots`, parents first, in the order of the file."""
     nodes: Sequence[Json] = document.get("nodes", ())
     waiting = list(reversed(roots))
     while waiting:
@@ -100,43 +88,21 @@ def choose_scene(document: Json, index: int | None, notes: list[str]) -> tuple[s
     """Return (name, root nodes) of scene `index`, or of the file's default scene.
 
     Without a default scene the first stands in, without scenes every root node does; the notes say so.
-    Raises AssetError where `index` does not exist or a listed node is not a root.
+    Raises UsageError where the caller's `index` does not exist.
     """
     scenes: Sequence[Json] = document.get("scenes", ())
-    parents = _parents(document.get("nodes", ()))
-    if not scenes and index is None:
-        notes.append("The file has no scene: every root node is drawn.")
-        return "", tuple(i for i, parent in enumerate(parents) if parent is None)
     if index is None:
-        index = document.get("scene")
-        if index is None:
-            index = 0
-            if len(scenes) > 1:
-                notes.append(f"The file names no default scene: the first of {len(scenes)} is drawn.")
+        if not scenes:
+            notes.append("The file has no scene: every root node is drawn.")
+            return "", _roots(document.get("nodes", ()))
+        index = document.get("scene", 0)
+        if "scene" not in document and len(scenes) > 1:
+            notes.append(f"The file names no default scene: the first of {len(scenes)} is drawn.")
     if not 0 <= index < len(scenes):
-        raise AssetError(f"there is no scene {index}; the file has {len(scenes)}", pointer="/scenes")
-    roots = tuple(scenes[index].get("nodes", ()))
-    seen: set[int] = set()
-    for place, node in enumerate(roots):
-        pointer = f"/scenes/{index}/nodes/{place}"
-        if parents[node] is not None:
-            raise AssetError(
-                f"node {node} has a parent, so it cannot be a root of the scene", pointer=pointer
-            )
-        if node in seen:
-            raise AssetError(f"node {node} is listed twice", pointer=pointer)
-        seen.add(node)
-    return str(scenes[index].get("name", "")), roots
+        raise UsageError(f"There is no scene {index}; the file has {len(scenes)}, counted from 0.")
+    return str(scenes[index].get("name", "")), tuple(scenes[index].get("nodes", ()))
 
 
-def _parents(nodes: Sequence[Json]) -> list[int | None]:
-    parents: list[int | None] = [None] * len(nodes)
-    for index, node in enumerate(nodes):
-        for place, child in enumerate(node.get("children", ())):
-            if parents[child] is not None:
-                raise AssetError(
-                    f"node {child} has two parents, {parents[child]} and {index}; nodes must form trees",
-                    pointer=f"/nodes/{index}/children/{place}",
-                )
-            parents[child] = index
-    return parents
+def _roots(nodes: Sequence[Json]) -> tuple[int, ...]:
+    children = {child for node in nodes for child in node.get("children", ())}
+    return tuple(index for index in range(len(nodes)) if index not in children)

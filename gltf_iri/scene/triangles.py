@@ -29,10 +29,10 @@ def read_triangles(
     """
     if "indices" in primitive:
         where = f"{pointer}/indices"
-        index = document.accessor(primitive["indices"])
-        if index.shape[1:] != (1,) or not np.issubdtype(index.dtype, np.unsignedinteger):
+        listed = document.accessor(primitive["indices"])
+        if listed.shape[1:] != (1,) or not np.issubdtype(listed.dtype, np.unsignedinteger):
             raise AssetError("indices must be unsigned integers, one a vertex", pointer=where)
-        index = index[:, 0].astype(np.uint32)
+        index: UInt32 = listed[:, 0].astype(np.uint32)
         if len(index) and int(index.max()) >= vertices:
             raise AssetError(
                 f"index {int(index.max())} points past the last of {vertices} vertices", pointer=where

@@ -1,0 +1,77 @@
+"""Image light: from a file, or made here."""
+
+from __future__ import annotations
+
+from os import PathLike
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.asset.guard import read_given
+from gltf_iri.asset.limits import MAX_IMAGE_FILE_BYTES
+from gltf_iri.errors import AssetError, UsageError
+from gltf_iri.scene.exr import read_exr
+from gltf_iri.scene.model import Environment
+from gltf_iri.scene.radiance_hdr import read_radiance
+from gltf_iri.scene.studio import studio_radiance
+
+__all__ = ["read_environment", "studio", "white"]
+
+Float32 = NDArray[np.float32]
+
+_OPENEXR_MAGIC = b"\x76\x2f\x31\x01"
+
+
+def read_environment(path: str | PathLike[str]) -> Environment:
+    """Return the equirectangular map of a Radiance (.hdr) or OpenEXR (.exr) file, told apart by their bytes.
+
+    Its width must be twice its height. Negative values, which lossy compression leaves around bright lights,
+    become 0 and are noted. Raises UsageError where the file cannot be read, AssetError where it is not such a
+    map or holds a number that is not finite.
+    """
+    place = Path(path)
+    data = read_given(place, MAX_IMAGE_FILE_BYTES)
+    if data.startswith(_OPENEXR_MAGIC):
+        radiance = read_exr(place)
+    elif data.startswith(b"#?"):
+        try:
+            radiance = read_radiance(data)
+        except AssetError as error:
+            raise AssetError(error.what, offset=error.offset, file=place) from error
+    else:
+        raise UsageError(f"{place} is neither a Radiance (.hdr) nor an OpenEXR (.exr) picture.")
+    return _checked(place, radiance)
+
+
+def white() -> Environment:
+    """Return radiance 1 from everywhere: the furnace, in which a perfect mirror cannot be seen."""
+    return Environment("white", np.ones((2, 4, 3), dtype=np.float32))
+
+
+def studio() -> Environment:
+    """Return a photographer's studio: key, fill, rim and overhead soft boxes, 256 × 512, mean radiance 1."""
+    return Environment("studio", studio_radiance())
+
+
+def _checked(place: Path, radiance: Float32) -> Environment:
+    height, width, _ = radiance.shape
+    if width != 2 * height:
+        raise AssetError(
+            f"an equirectangular map is twice as wide as high, and this picture is {width} × {height}",
+            file=place,
+        )
+    broken = ~np.isfinite(radiance).all(axis=2)
+    if broken.any():
+        row, column = (int(n) for n in np.argwhere(broken)[0])
+        raise AssetError(
+            f"{int(broken.sum())} pixels are not finite, the first in row {row}, column {column}", file=place
+        )
+    negative = (radiance < 0.0).any(axis=2)
+    if not negative.any():
+        return Environment(place.name, radiance)
+    lowest = float(radiance.min())
+    note = (
+        f"{place.name} has {int(negative.sum())} pixels with negative light (down to {lowest:.3g}): set to 0."
+    )
+    return Environment(place.name, np.maximum(radiance, np.float32(0.0)), (note,))
