@@ -55,8 +55,9 @@ def decode_image(
 ) -> tuple[Image, list[str]]:
     """Decode to RGBA and return the image and remarks.
 
-    Raises AssetError if the bytes are no picture, a broken one or one too large. Grey becomes R = G = B, a missing alpha 255. Colour profiles and gamma are ignored (glTF 2.0 §3.8.3: the
-    colour space follows from the use).
+    Grey becomes R = G = B, a missing alpha 255. Colour profiles and gamma are ignored, as glTF 2.0 §3.8.3
+    wants: the colour space follows from the use. Raises AssetError if the bytes are no picture, a broken
+    one, or one too large.
     """
     found = sniff_media_type(data)
     if found is None or found not in _PILLOW_NAMES:
