@@ -7,8 +7,9 @@ other spellings, so a misspelt feature cannot be silently left out.
 from __future__ import annotations
 
 from enum import Enum
+from typing import Final
 
-__all__ = ["Effect"]
+__all__ = ["MATERIAL_EFFECTS", "SURROUNDINGS", "Effect"]
 
 
 class Effect(Enum):
@@ -49,3 +50,8 @@ class Effect(Enum):
     def define(self) -> str:
         """The preprocessor symbol that switches the effect on in GLSL."""
         return "HAS_" + self.name
+
+
+# Decided by the geometry and the lights; all others belong to the material.
+SURROUNDINGS: Final = (Effect.VERTEX_COLOR, Effect.TANGENTS, Effect.PUNCTUAL_LIGHTS, Effect.IMAGE_LIGHT)
+MATERIAL_EFFECTS: Final = tuple(effect for effect in Effect if effect not in SURROUNDINGS)

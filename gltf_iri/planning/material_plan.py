@@ -16,7 +16,9 @@ class MaterialPlan:
     """The effects to simulate, the method for the film, and the reason for everything left out.
 
     `skipped` holds effects that the material does not call for; `not_drawn` holds effects that it does call
-    for and that this program does not simulate yet, so that no report can pass over them in silence.
+    for and that this program does not simulate yet, so that no report can pass over them in silence. Together
+    the three hold every effect of a material once; `absent` names those of `skipped` that the file does not
+    mention at all, which lists for people leave out.
     """
 
     index: int  # −1 for glTF's default material
@@ -27,6 +29,7 @@ class MaterialPlan:
     layering: str  # "core", "specular": which of the text's two dielectric layerings applies
     skipped: Mapping[Effect, str] = field(default_factory=dict)
     not_drawn: Mapping[str, str] = field(default_factory=dict)
+    absent: frozenset[Effect] = frozenset()
 
     def calls_for(self, effect: Effect) -> bool:
         """True where `effect` is simulated."""

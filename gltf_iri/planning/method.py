@@ -30,6 +30,11 @@ class Method:
         float | None
     )  # CIEDE2000 against truth on the film set of the benchmark; None: undefined cases
 
+    @property
+    def define(self) -> str:
+        """The preprocessor symbol that selects the method in GLSL: khr-guarded → METHOD_KHR_GUARDED."""
+        return "METHOD_" + self.name.upper().replace("-", "_")
+
 
 _FILM_METHODS = (
     Method(

@@ -1,0 +1,83 @@
+"""Which effects of the core material model are called for (glTF 2.0 §3.9)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from gltf_iri.material.emissive_strength import EmissiveStrength
+from gltf_iri.material.material import Material
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.verdict import Skip, Verdict, absent, texture_verdict
+
+__all__ = ["core_verdicts", "dielectric_verdict", "metal_verdict"]
+
+
+def core_verdicts(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+    """Yield the verdict on each effect of the core material."""
+    pbr = material.pbr
+    yield Effect.UNLIT, None if material.unlit is not None else absent("KHR_materials_unlit")
+    yield (
+        Effect.BASE_COLOR_TEXTURE,
+        texture_verdict(pbr.base_color_texture, "base color texture", _idle_base_color(material)),
+    )
+    yield Effect.ALPHA_MASK, _alpha_mask(material)
+    yield (
+        Effect.ALPHA_BLEND,
+        None
+        if material.alpha_mode == "BLEND"
+        else absent(f"blending: the alpha mode is {material.alpha_mode}"),
+    )
+    yield Effect.DOUBLE_SIDED, None if material.double_sided else absent("doubleSided")
+    yield Effect.DIELECTRIC, dielectric_verdict(material)
+    yield Effect.METAL, metal_verdict(material)
+    is_idle = pbr.metallic_factor == 0.0 and pbr.roughness_factor == 0.0
+    idle = "the metallic and the roughness factor are 0" if is_idle else None
+    yield (
+        Effect.METALLIC_ROUGHNESS_TEXTURE,
+        texture_verdict(pbr.metallic_roughness_texture, "metallic-roughness texture", idle),
+    )
+    idle = "its scale is 0" if material.normal_texture and material.normal_texture.scale == 0.0 else None
+    yield Effect.NORMAL_TEXTURE, texture_verdict(material.normal_texture, "normal texture", idle)
+    occlusion = material.occlusion_texture
+    idle = "its strength is 0" if occlusion and occlusion.strength == 0.0 else None
+    yield Effect.OCCLUSION_TEXTURE, texture_verdict(occlusion, "occlusion texture", idle)
+    emission = _emission(material)
+    yield Effect.EMISSION, emission
+    idle = emission.reason if emission else None
+    yield Effect.EMISSIVE_TEXTURE, texture_verdict(material.emissive_texture, "emissive texture", idle)
+
+
+def dielectric_verdict(material: Material) -> Skip | None:
+    """Judge the dielectric lobe: only a metallic factor of 1 that no texture lowers rules it out."""
+    if material.pbr.metallic_factor == 1.0 and material.pbr.metallic_roughness_texture is None:
+        return Skip("the metallic factor is 1 and no texture lowers it")
+    return None
+
+
+def metal_verdict(material: Material) -> Skip | None:
+    """Judge the metal lobe."""
+    return Skip("the metallic factor is 0") if material.pbr.metallic_factor == 0.0 else None
+
+
+def _idle_base_color(material: Material) -> str | None:
+    *colour, alpha = material.pbr.base_color_factor
+    if any(colour) or (material.alpha_mode != "OPAQUE" and alpha):
+        return None
+    return "the base color factor is 0"
+
+
+def _alpha_mask(material: Material) -> Skip | None:
+    if material.alpha_mode != "MASK":
+        return absent(f"mask: the alpha mode is {material.alpha_mode}")
+    if material.alpha_cutoff == 0.0:
+        return Skip("the cutoff is 0, which no alpha falls below")
+    return None
+
+
+def _emission(material: Material) -> Skip | None:
+    if not any(material.emissive_factor):
+        mentioned = material.emissive_texture is not None or material.emissive_strength is not None
+        return Skip("the emissive factor is 0", is_absent=not mentioned)
+    if (material.emissive_strength or EmissiveStrength()).strength == 0.0:
+        return Skip("the emissive strength is 0")
+    return None

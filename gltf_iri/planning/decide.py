@@ -1,0 +1,111 @@
+"""The plan: every effect that a material can call for, simulated or left out with its reason."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Final
+
+from gltf_iri.errors import UsageError
+from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.material.material import Material
+from gltf_iri.planning.core import core_verdicts
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.extensions import extension_verdicts
+from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, film_verdicts, idle_film
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.method import Method, find_method
+from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict
+
+__all__ = ["DEFAULT_METHOD", "plan_material", "plan_materials"]
+
+DEFAULT_METHOD: Final = "khr-guarded"
+
+# What an unlit material still does.
+_SEEN_UNLIT: Final = frozenset(
+    {
+        Effect.UNLIT,
+        Effect.BASE_COLOR_TEXTURE,
+        Effect.ALPHA_MASK,
+        Effect.ALPHA_BLEND,
+        Effect.DOUBLE_SIDED,
+    }
+)
+
+_SPECULAR_GLOSSINESS: Final = "KHR_materials_pbrSpecularGlossiness"
+
+
+def plan_materials(materials: Iterable[Material], *, method: str | None = None) -> tuple[MaterialPlan, ...]:
+    """Return the plan of each material; see `plan_material`."""
+    return tuple(plan_material(material, index, method=method) for index, material in enumerate(materials))
+
+
+def plan_material(material: Material, index: int, *, method: str | None = None) -> MaterialPlan:
+    """Return what `material` calls for.
+
+    index : its place in the file, −1 for glTF's default material.
+    method : the film method that was asked for; None leaves the choice to the plan.
+
+    Raises UsageError where the method does not exist or does not compute films.
+    """
+    descriptor = find_method(method or DEFAULT_METHOD)
+    if descriptor.domain != "film":
+        raise UsageError(f"The method '{method}' computes mirrors; a material's film wants another.")
+    verdicts = dict(_verdicts(material, descriptor))
+    film = verdicts[Effect.IRIDESCENCE]
+    return MaterialPlan(
+        index=index,
+        name=material.name,
+        effects=tuple(effect for effect in Effect if effect in verdicts and verdicts[effect] is None),
+        method=descriptor.name if film is None else None,
+        method_reason=_method_reason(material, film, descriptor, is_asked=method is not None),
+        layering=_layering(material, descriptor if film is None else None),
+        skipped={e: v.reason for e, v in verdicts.items() if isinstance(v, Skip)},
+        not_drawn=_not_drawn(material, verdicts),
+        absent=frozenset(e for e, v in verdicts.items() if isinstance(v, Skip) and v.is_absent),
+    )
+
+
+def _verdicts(material: Material, method: Method) -> Iterable[tuple[Effect, Verdict]]:
+    for decided in (core_verdicts(material), extension_verdicts(material), film_verdicts(material, method)):
+        for effect, verdict in decided:
+            yield effect, _under_unlit(effect, verdict) if material.unlit is not None else verdict
+
+
+def _under_unlit(effect: Effect, verdict: Verdict) -> Verdict:
+    if effect in _SEEN_UNLIT or (isinstance(verdict, Skip) and verdict.is_absent):
+        return verdict
+    if effect is Effect.IRIDESCENCE:
+        return Skip(f"the material is unlit, which {Iridescence.EXTENSION} excludes")
+    return Skip("the material is unlit")
+
+
+def _method_reason(material: Material, film: Verdict, method: Method, *, is_asked: bool) -> str:
+    if film is not None:
+        return f"no film: {film.reason}"
+    reason = "asked for" if is_asked else "the default: the text's formula with its undefined cases closed"
+    idle = idle_film(material)
+    if idle is not None and method.name in DRAWS_PHANTOM_FRINGES:
+        reason += f"; drawn to the letter although {idle}: the text shows fringes where physics has none"
+    return reason
+
+
+def _layering(material: Material, method: Method | None) -> str:
+    """Choose between the text's two dielectric layerings.
+
+    With KHR_materials_specular its own section applies. Without, the core section blends the film in after
+    two separate layerings, so that adding the extension with neutral values changes the picture; khr-guarded
+    closes that gap by always blending first.
+    """
+    is_guarded = method is not None and method.name == "khr-guarded"
+    return "specular" if material.specular is not None or is_guarded else "core"
+
+
+def _not_drawn(material: Material, verdicts: dict[Effect, Verdict]) -> dict[str, str]:
+    missing = {e.value: v.reason for e, v in verdicts.items() if isinstance(v, NotDrawn)}
+    for name in material.unread_extensions:
+        missing[name] = "not read by this program, drawn without it"
+    if _SPECULAR_GLOSSINESS in missing:
+        missing[_SPECULAR_GLOSSINESS] = "not read by this program, drawn with the metallic-roughness values"
+        if material.iridescence is not None:
+            missing[_SPECULAR_GLOSSINESS] += f"; {Iridescence.EXTENSION} excludes it on the same material"
+    return missing
