@@ -1,0 +1,133 @@
+"""The shape of the house: which way imports run, and what may not stand at a module's top."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+PACKAGE = ROOT / "gltf_iri"
+MODULES = sorted(PACKAGE.rglob("*.py"))
+
+# From the door down to the bytes: a folder may import those after it, never those before it.
+ROAD = (
+    *("cli", "bench", "comparison", "rendering", "evaluation", "planning", "scene", "material"),
+    "asset",
+)
+# Open to every folder; these may import each other and nothing of the road.
+GROUND = {"optics", "colour", "errors", "tolerances", "resources"}
+# Beside the road: a writer of assets that reads none.
+SAMPLES = "samples"
+# They see everything, because they start or gather it.
+ENTRANCES = {"__init__", "__main__", "generate"}
+
+SLOW_TO_LOAD = {
+    *("scipy", "colour", "matplotlib", "moderngl", "glcontext", "pygltflib", "trimesh"),
+    *("OpenEXR", "jinja2", "PIL", "rich"),
+}
+LONGEST_FILE = 300
+
+TOP_LEVEL = {
+    *("pyproject.toml", "README.md", "LICENSE", "CHANGELOG.md", "CONTRIBUTING.md", "Makefile"),
+    *(".ci", ".gitignore", "gltf_iri", "shaders", "samples", "spec", "tests"),
+}
+
+
+def part_of(module: Path) -> str:
+    """Return the folder of the package that `module` stands in, or its own name at the top."""
+    relative = module.relative_to(PACKAGE)
+    return relative.parts[0] if len(relative.parts) > 1 else relative.stem
+
+
+def imported(tree: ast.AST) -> Iterator[tuple[ast.stmt, str]]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from ((node, alias.name) for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.level == 0 and node.module:
+            if node.module == "gltf_iri":
+                yield from ((node, f"gltf_iri.{alias.name}") for alias in node.names)
+            else:
+                yield node, node.module
+
+
+def allowed_from(part: str) -> set[str]:
+    everything = {*ROAD, *GROUND, SAMPLES}
+    if part in ENTRANCES:
+        return everything
+    if part in GROUND:
+        return GROUND
+    if part == SAMPLES:
+        return {SAMPLES, *GROUND}
+    below = {*ROAD[ROAD.index(part) :], *GROUND}
+    return below | {SAMPLES} if part in ("cli", "bench") else below
+
+
+def test_every_folder_of_the_package_has_its_place() -> None:
+    assert {part_of(module) for module in MODULES} <= {*ROAD, *GROUND, SAMPLES, *ENTRANCES}
+
+
+def test_imports_run_one_way() -> None:
+    against = []
+    for module in MODULES:
+        part = part_of(module)
+        for node, name in imported(ast.parse(module.read_text(encoding="utf-8"))):
+            if name.startswith("gltf_iri."):
+                target = name.split(".")[1]
+                is_metadata = target.startswith("__")
+                if not is_metadata and target not in allowed_from(part):
+                    against.append(f"{module.relative_to(ROOT)}:{node.lineno} imports {name}")
+    assert against == []
+
+
+def test_slow_packages_are_imported_where_they_are_used() -> None:
+    at_the_top = []
+    for module in MODULES:
+        tree = ast.parse(module.read_text(encoding="utf-8"))
+        inside = {
+            id(node)
+            for holder in ast.walk(tree)
+            if isinstance(holder, (ast.FunctionDef, ast.AsyncFunctionDef)) or is_type_checking(holder)
+            for node in ast.walk(holder)
+        }
+        for node, name in imported(tree):
+            if id(node) not in inside and name.split(".")[0] in SLOW_TO_LOAD:
+                at_the_top.append(f"{module.relative_to(ROOT)}:{node.lineno} imports {name}")
+    assert at_the_top == []
+
+
+def is_type_checking(node: ast.AST) -> bool:
+    return isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
+
+
+@pytest.mark.parametrize("module", MODULES, ids=lambda module: str(module.relative_to(ROOT)))
+def test_every_module_says_what_it_offers(module: Path) -> None:
+    tree = ast.parse(module.read_text(encoding="utf-8"))
+    assert ast.get_docstring(tree)
+    names = {
+        target.id
+        for node in tree.body
+        if isinstance(node, (ast.Assign, ast.AugAssign, ast.AnnAssign))
+        for target in (node.targets if isinstance(node, ast.Assign) else [node.target])
+        if isinstance(target, ast.Name)
+    }
+    has_code = any(not isinstance(node, ast.Expr) for node in tree.body)
+    assert "__all__" in names or not has_code
+
+
+def test_no_file_is_too_long_to_be_read_at_once() -> None:
+    shaders = sorted(p for p in (ROOT / "shaders").rglob("*.glsl") if "generated" not in p.parts)
+    lengths = {
+        str(path.relative_to(ROOT)): len(path.read_text(encoding="utf-8").splitlines())
+        for path in (*MODULES, *shaders)
+    }
+    assert {path: length for path, length in lengths.items() if length > LONGEST_FILE} == {}
+
+
+def test_the_top_level_holds_what_the_plan_of_the_house_says() -> None:
+    ignored = (ROOT / ".gitignore").read_text(encoding="utf-8").split()
+    ignored_names = {line.strip("/") for line in ignored} | {".git"}
+    present = {path.name for path in ROOT.iterdir() if not path.name.endswith(".egg-info")}
+    assert present - ignored_names == TOP_LEVEL
