@@ -1,4 +1,4 @@
-"""The pictures of a comparison as PNG bytes: what was drawn, and maps of the differences with a colour bar."""
+"""Maps of the differences between two pictures, with a colour bar, as PNG bytes."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _DEVIATION_FLOOR = 1e-8
 
 
 def deviation_map(deviation: Float64, drawn: Mask) -> bytes:
-    """Draw |GLSL − Python| / max(1, |Python|) on a logarithmic scale whose top is the tolerance or the maximum."""
+    """Draw |GLSL − Python| / max(1, |Python|) on a logarithmic scale up to the tolerance, or the maximum."""
     from matplotlib.colors import LogNorm
 
     top = max(GLSL_PIXEL_RELATIVE, float(np.max(deviation, initial=0.0)))

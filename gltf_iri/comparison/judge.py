@@ -7,19 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.comparison.methods import BRANCH, TRUTH, film_method, white_of
 from gltf_iri.comparison.metric import Agreement, ColourError, agreement, colour_error, relative_deviation
 from gltf_iri.comparison.pixels import Pixels, gather
 from gltf_iri.comparison.result import Comparison, MaterialResult, PictureResult, Pictures, Split
-from gltf_iri.comparison.shade import FilmMethod, film_reflectance, shade
+from gltf_iri.comparison.shade import FilmMethod, shade
 from gltf_iri.errors import UsageError
-from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
@@ -27,12 +26,10 @@ from gltf_iri.rendering.frame import Frame, ShadingInputs
 from gltf_iri.scene.model import Camera, Light
 from gltf_iri.tolerances import GLSL_PIXEL_ROUGHNESS_MIN
 
-__all__ = ["TRUTH", "Shot", "judge"]
+__all__ = ["Shot", "judge"]
 
 Float64 = NDArray[np.float64]
 Mask = NDArray[np.bool_]
-
-TRUTH = "spectral"
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,8 +108,8 @@ def _judge_material(
     film_ior, method, truth = _film_of(shot, plan)
     mine = shade(pixels, plan, film_ior, shot.lights, method)
     pictures.python[mask] = mine.rgb
-    undefined = _any_case(mine.undefined, len(mine.rgb))
-    compared[mask] = ~undefined
+    left_out = _left_out(mine.undefined, mine.rgb, pictures.glsl[mask])
+    compared[mask] = ~left_out
     judged = mask & compared
     result = MaterialResult(
         plan=plan,
@@ -123,38 +120,46 @@ def _judge_material(
         picture_vs_truth=None,
         eight_bit_textures=_eight_bit(inputs, coarse, judged, shot.exposure),
         undefined={case: int(rows.sum()) for case, rows in sorted(mine.undefined.items()) if rows.any()},
+        left_out=int(left_out.sum()),
     )
-    if not plan.calls_for(Effect.IRIDESCENCE):
+    if not mine.has_film.any():
         pictures.truth[mask] = mine.rgb
         return result
     exact = shade(pixels, plan, film_ior, shot.lights, truth)
     pictures.truth[mask] = exact.rgb
-    film_mine = film_reflectance(pixels, plan, film_ior, method)
-    film_exact = film_reflectance(pixels, plan, film_ior, truth)
-    seen = ~_any_case(film_mine.undefined, len(mine.rgb))
+    filmed, seen = mine.has_film & ~left_out, ~left_out
     return replace(
         result,
-        method_white=film_mine.white,
-        truth_white=film_exact.white,
-        method_vs_truth=colour_error(film_mine.rgb[seen], film_exact.rgb[seen]),
-        picture_vs_truth=colour_error(mine.rgb[~undefined], exact.rgb[~undefined], exposure=shot.exposure),
+        method_white=white_of(plan.method or "", mine.white),
+        truth_white=exact.white,
+        method_vs_truth=colour_error(mine.film[filmed], exact.film[filmed]),
+        picture_vs_truth=colour_error(mine.rgb[seen], exact.rgb[seen], exposure=shot.exposure),
     )
 
 
 def _film_of(shot: Shot, plan: MaterialPlan) -> tuple[float, FilmMethod, FilmMethod]:
-    truth = partial(evaluate, TRUTH, white=shot.white)
+    """Return the film's index, the plan's method and the truth; without a film, none of them is used."""
+    truth = film_method(TRUTH, shot.white)
     if not plan.calls_for(Effect.IRIDESCENCE) or plan.method is None:
-        return 1.0, truth, truth  # no film: neither is called
+        return 1.0, truth, truth
     iridescence = shot.materials[plan.index].iridescence
     if iridescence is None:
         raise UsageError(f"The plan of material {plan.index} has a film, but the material has none.")
     # The shader receives the index as float32, and a film of 10 µm shows the rounding.
-    film_ior = float(np.float32(iridescence.film_ior))
-    return film_ior, partial(evaluate, plan.method, white=shot.white), truth
+    return float(np.float32(iridescence.film_ior)), film_method(plan.method, shot.white), truth
+
+
+def _left_out(undefined: Mapping[str, Mask], python: Float64, glsl: Float64) -> Mask:
+    """Return the pixels (n,) that are not compared: on a branch, or undefined and no number."""
+    is_number = np.all(np.isfinite(python) & np.isfinite(glsl), axis=-1)
+    touched = np.zeros(is_number.shape, dtype=np.bool_)
+    for case, rows in undefined.items():
+        touched |= rows if case == BRANCH else rows & ~is_number
+    return touched
 
 
 def _masks(inputs: ShadingInputs, plans: Sequence[MaterialPlan]) -> Iterator[tuple[MaterialPlan, Mask]]:
-    """Yield each plan with the pixels (height, width) that it was drawn on; plans off the picture are left out."""
+    """Yield each plan that is on the picture with its pixels (height, width)."""
     for slot, plan in enumerate(plans):
         mask = inputs.material == slot
         if mask.any():
@@ -196,13 +201,6 @@ def _draw_texture_difference(
     pictures.texture_delta_e[rows] = delta_e_2000(
         exposure * coarse.colour[rows], exposure * inputs.colour[rows]
     )
-
-
-def _any_case(undefined: Mapping[str, Mask], count: int) -> Mask:
-    touched = np.zeros(count, dtype=np.bool_)
-    for rows in undefined.values():
-        touched |= rows
-    return touched
 
 
 def _inputs_of(frame: Frame) -> ShadingInputs:

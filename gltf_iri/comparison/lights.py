@@ -18,8 +18,8 @@ _CONE_COSINE_MIN = 1e-3
 def arriving(light: Light, position: Float64) -> tuple[Float64, Float64]:
     """Return the unit direction towards the light, (n, 3), and its illuminance face on, (n, 3).
 
-    Directional: E = c·I lux. Point and spot: E = c·I/d² · clamp(1 − (d/range)⁴, 0, 1), with I in candela and d
-    in metres; a spot multiplies by the square of the clamped cone ramp.
+    Directional: E = c·I, in lux. Point and spot: E = c·I/d² · clamp(1 − (d/range)⁴, 0, 1), in candela and
+    metres; a spot multiplies by the square of its cone's clamped ramp.
     """
     emitted = np.asarray(light.colour, np.float64) * light.intensity
     if light.kind == "directional":
@@ -37,7 +37,7 @@ def arriving(light: Light, position: Float64) -> tuple[Float64, Float64]:
 
 
 def _cone(light: Light, direction: Float64) -> Float64:
-    """Return 1 inside the inner cone, 0 outside the outer one, and between them the square of a ramp in cosθ."""
+    """Return 1 inside the inner cone, 0 outside the outer one, the square of a ramp in cosθ between them."""
     inner, outer = np.cos(light.inner_cone_rad), np.cos(light.outer_cone_rad)
     ramp = (-(direction @ light.direction) - outer) / max(inner - outer, _CONE_COSINE_MIN)
     return np.asarray(np.clip(ramp, 0.0, 1.0) ** 2)

@@ -50,7 +50,7 @@ def write_report(comparison: Comparison, folder: Path, *, exposure: float) -> di
 def report_html(comparison: Comparison, images: dict[str, bytes]) -> str:
     """Return the page; `images` maps names of `write_report` to PNG bytes, which it carries as data URIs.
 
-    Names in assets come from strangers: everything is escaped, and the page runs no script and asks for nothing.
+    Names in assets come from strangers: everything is escaped, and the page runs no script and loads nothing.
     """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
@@ -95,8 +95,8 @@ def _replace(path: Path, data: bytes) -> Path:
     try:
         with os.fdopen(handle, "wb") as stream:
             stream.write(data)
-        os.chmod(name, 0o644)
-        os.replace(name, path)
+        Path(name).chmod(0o644)  # mkstemp keeps others out; a report is for everyone
+        Path(name).replace(path)
     except BaseException:
         Path(name).unlink(missing_ok=True)
         raise

@@ -20,7 +20,7 @@ Float64 = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Split:
-    """GLSL against Python: on all pixels, and apart on either side of the roughness the tolerance starts at."""
+    """GLSL against Python: on all pixels, and apart above and below the roughness where judging starts."""
 
     all: Agreement
     rough: Agreement
@@ -47,7 +47,8 @@ class MaterialResult:
     method_vs_truth: ColourError | None  # the film's reflectance alone, at the pixels' N·V
     picture_vs_truth: ColourError | None  # the shaded pixels, after exposure, before tone mapping
     eight_bit_textures: ColourError | None  # GLSL with 8-bit textures against GLSL with float ones
-    undefined: Mapping[str, int]  # pixels of each undefined case of the method; they are not compared
+    undefined: Mapping[str, int]  # pixels that each undefined case of the method's text touched
+    left_out: int  # pixels not compared: on a branch of the text, or undefined and no number
 
     def to_json(self) -> dict[str, Any]:
         """Return one row of the report's ``materials``."""
@@ -59,6 +60,7 @@ class MaterialResult:
             "picture_vs_truth": _maybe(self.picture_vs_truth),
             "eight_bit_textures": _maybe(self.eight_bit_textures),
             "undefined": dict(self.undefined),
+            "left_out": self.left_out,
         }
 
 

@@ -27,7 +27,7 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.scene.model import Light
 
-__all__ = ["FilmMethod", "Shading", "film_reflectance", "shade"]
+__all__ = ["FilmMethod", "Shading", "shade"]
 
 Float64 = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -36,10 +36,18 @@ FilmMethod = Callable[[Film], Evaluation]
 
 @dataclass(slots=True)
 class Shading:
-    """Shaded colours (n, 3), and for each undefined case of the film's method the pixels (n,) it touched."""
+    """Shaded pixels, and for each undefined case of the film's method the pixels (n,) it touched.
+
+    rgb : (n, 3) linear colour.
+    film : (n, 3) the film's own reflectance at N·V, strength 1, metal and dielectric mixed by metalness; 0
+        where there is no film (`has_film` is False).
+    white : the film's; empty where no film was evaluated.
+    """
 
     rgb: Float64
-    white: str = ""  # the film's; empty where no film was evaluated
+    film: Float64
+    has_film: Mask
+    white: str = ""
     undefined: dict[str, Mask] = field(default_factory=dict)
 
 
@@ -52,10 +60,10 @@ class _FilmAt:
     method: FilmMethod
     shading: Shading
 
-    def __call__(self, base_f0: Float64, cos_theta: Float64, share: Float64) -> Float64:
-        """Return the film's reflectance (n, 3); 0 where neither the film nor this base takes part."""
+    def __call__(self, base_f0: Float64, cos_theta: Float64, needed: Mask) -> Float64:
+        """Return the film's reflectance (n, 3) over `base_f0`; 0 where there is no film or none is needed."""
         rgb = np.zeros_like(base_f0)
-        rows = (self.pixels.iridescence_factor > 0.0) & (share > 0.0)
+        rows = self.shading.has_film & needed
         if not rows.any():
             return rgb
         thickness = self.pixels.thickness_nm[rows]
@@ -82,11 +90,13 @@ def shade(
     lights : the scene's punctual lights; image light comes with the pixels.
     method : maps a `Film` to its reflectance colours.
     """
-    shading = Shading(np.zeros_like(pixels.base_color))
+    nothing = np.zeros_like(pixels.base_color)
+    has_film = (pixels.iridescence_factor > 0.0) & plan.calls_for(Effect.IRIDESCENCE)
+    shading = Shading(nothing, nothing, has_film)
     if plan.calls_for(Effect.UNLIT):
         shading.rgb = pixels.base_color
         return shading
-    film = _FilmAt(pixels, film_ior, method, shading) if plan.calls_for(Effect.IRIDESCENCE) else None
+    film = _FilmAt(pixels, film_ior, method, shading)
     rgb = pixels.emission + _image_light(pixels, plan, film)
     for light in lights:
         rgb = rgb + _punctual_light(pixels, plan, film, light)
@@ -94,21 +104,18 @@ def shade(
     return shading
 
 
-def film_reflectance(pixels: Pixels, plan: MaterialPlan, film_ior: float, method: FilmMethod) -> Shading:
-    """Return the film's own reflectance colour at each pixel's N·V: strength 1, metal and dielectric mixed."""
-    shading = Shading(np.zeros_like(pixels.base_color))
-    film = _FilmAt(pixels, film_ior, method, shading)
-    dielectric_share = 1.0 - pixels.metallic
-    dielectric = film(_dielectric_base(pixels, plan), pixels.n_dot_v, dielectric_share)
-    metal = film(pixels.base_color, pixels.n_dot_v, pixels.metallic)
-    shading.rgb = dielectric_share[:, None] * dielectric + pixels.metallic[:, None] * metal
-    return shading
-
-
-def _image_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt | None) -> Float64:
+def _image_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt) -> Float64:
     """Split sum: plain = F0·A + B, film = F(N·V)·(A + B); radiance and irradiance were prefiltered."""
     a, b = pixels.dfg_a[:, None], pixels.dfg_b[:, None]
-    dielectric, metal = _surfaces(pixels, plan, film, pixels.n_dot_v, lambda f0: f0 * a + b, film_scale=a + b)
+    everywhere = np.ones(len(pixels.alpha), dtype=np.bool_)
+    filmed = _films(pixels, plan, film, pixels.n_dot_v, everywhere)
+    film.shading.film = _by_metalness(pixels, *filmed)
+    dielectric, metal = _layers(
+        pixels,
+        plan,
+        (pixels.dielectric_f0 * a + b, pixels.base_color * a + b),
+        ((a + b) * filmed[0], (a + b) * filmed[1]),
+    )
     through = dielectric.base_weight[:, None] * pixels.base_color * pixels.irradiance
     return _by_metalness(
         pixels,
@@ -117,7 +124,7 @@ def _image_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt | None) -> Fl
     )
 
 
-def _punctual_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt | None, light: Light) -> Float64:
+def _punctual_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt, light: Light) -> Float64:
     """E·(N·L)·f_r, with film and Schlick at V·H, f_r = base_weight·c/π + F·V·D (glTF 2.0 Appendix B.2)."""
     towards_light, illuminance = arriving(light, pixels.position)
     n_dot_l = np.clip(np.sum(pixels.normal * towards_light, axis=-1), 0.0, 1.0)
@@ -130,42 +137,40 @@ def _punctual_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt | None, li
     lobe = d_ggx(np.sum(n_cross_h * n_cross_h, axis=-1), pixels.alpha) * v_smith_ggx_correlated(
         n_dot_l, pixels.n_dot_v, pixels.alpha
     )
-    dielectric, metal = _surfaces(
-        pixels, plan, film, v_dot_h, lambda f0: f_schlick(f0, v_dot_h[:, None]), film_scale=np.ones((1, 1))
+    cosine = v_dot_h[:, None]
+    dielectric, metal = _layers(
+        pixels,
+        plan,
+        (f_schlick(pixels.dielectric_f0, cosine), f_schlick(pixels.base_color, cosine)),
+        _films(pixels, plan, film, v_dot_h, (illuminance.max(axis=-1) > 0.0) & (n_dot_l > 0.0)),
     )
     through = dielectric.base_weight[:, None] * pixels.base_color / np.pi
     reflected = _by_metalness(pixels, through + dielectric.specular * lobe[:, None], metal * lobe[:, None])
     return illuminance * n_dot_l[:, None] * reflected
 
 
-def _surfaces(
-    pixels: Pixels,
-    plan: MaterialPlan,
-    film: _FilmAt | None,
-    cos_theta: Float64,
-    plain: Callable[[Float64], Float64],
-    *,
-    film_scale: Float64,
+def _films(
+    pixels: Pixels, plan: MaterialPlan, film: _FilmAt, cos_theta: Float64, needed: Mask
+) -> tuple[Float64, Float64]:
+    """Return the film's reflectances over the dielectric and over the metal."""
+    # With KHR_materials_specular the reflection's weight belongs to the base under the film.
+    weight = pixels.specular_weight[:, None] if plan.layering == "specular" else 1.0
+    return (
+        film(weight * pixels.dielectric_f0, cos_theta, needed & (pixels.metallic < 1.0)),
+        film(pixels.base_color, cos_theta, needed & (pixels.metallic > 0.0)),
+    )
+
+
+def _layers(
+    pixels: Pixels, plan: MaterialPlan, plain: tuple[Float64, Float64], filmed: tuple[Float64, Float64]
 ) -> tuple[Layer, Float64]:
-    """Return the dielectric's layer and the metal's reflectance at the angle `cos_theta`."""
-    strength = pixels.iridescence_factor if film else np.zeros_like(cos_theta)
-    plain_d, plain_m = plain(pixels.dielectric_f0), plain(pixels.base_color)
-    filmed_d, filmed_m = np.zeros_like(plain_d), np.zeros_like(plain_m)
-    if film:
-        filmed_d = film_scale * film(_dielectric_base(pixels, plan), cos_theta, 1.0 - pixels.metallic)
-        filmed_m = film_scale * film(pixels.base_color, cos_theta, pixels.metallic)
+    """Return the dielectric's layer and the metal's reflectance, from those without and with film."""
+    strength = pixels.iridescence_factor * plan.calls_for(Effect.IRIDESCENCE)
     if plan.layering == "specular":
-        layer = iridescent_dielectric_layer_specular(strength, pixels.specular_weight, plain_d, filmed_d)
+        layer = iridescent_dielectric_layer_specular(strength, pixels.specular_weight, plain[0], filmed[0])
     else:
-        layer = iridescent_dielectric_layer(strength, plain_d, filmed_d)
-    return layer, iridescent_conductor_layer(strength, plain_m, filmed_m)
-
-
-def _dielectric_base(pixels: Pixels, plan: MaterialPlan) -> Float64:
-    """F0 of what lies under the film: with KHR_materials_specular its weight belongs to it."""
-    if plan.layering == "specular":
-        return pixels.specular_weight[:, None] * pixels.dielectric_f0
-    return pixels.dielectric_f0
+        layer = iridescent_dielectric_layer(strength, plain[0], filmed[0])
+    return layer, iridescent_conductor_layer(strength, plain[1], filmed[1])
 
 
 def _by_metalness(pixels: Pixels, dielectric: Float64, metal: Float64) -> Float64:

@@ -7,7 +7,7 @@ import pytest
 
 from gltf_iri.comparison.lights import arriving
 from gltf_iri.comparison.pixels import gather
-from gltf_iri.comparison.shade import film_reflectance, shade
+from gltf_iri.comparison.shade import shade
 from gltf_iri.evaluation.film import Evaluation
 from gltf_iri.planning.effects import Effect
 from gltf_iri.scene.model import Camera, Light
@@ -99,7 +99,7 @@ def test_white_metal_and_white_dielectric_vanish_in_a_white_room(
 def test_specular_weight_reaches_the_base_under_the_film(row_of_pixels, camera, plan) -> None:
     film = PaintedFilm([0.1, 0.1, 0.1])
     pixels = all_pixels(row_of_pixels(iridescence_factor=1, specular_weight=0.5), camera)
-    film_reflectance(pixels, plan(method="painted", layering="specular"), 1.4, film)
+    shade(pixels, plan(method="painted", layering="specular"), 1.4, [], film)
     np.testing.assert_allclose(film.films[0].base.f0[0], 0.5 * F0)
 
 
