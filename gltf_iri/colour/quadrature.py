@@ -2,9 +2,8 @@
 
 The integrand is a smooth reflectance times colour weights that are only piecewise smooth. So the reflectance
 alone is interpolated, by the polynomial through Chebyshev–Lobatto nodes in wavenumber ν = 1/λ (in which film
-fringes are plain cosines), and the weights are the exact integrals of that polynomial's Chebyshev terms against
-the observer and the illuminant (product integration; Trefethen, "Is Gauss Quadrature Better than
-Clenshaw–Curtis?", SIAM Review 2008, for the interpolation). A rule of twice the degree keeps every node.
+fringes are plain cosines), and the weights are the exact integrals of its Chebyshev terms against observer and
+illuminant (product integration; Sloan & Smith 1978). A rule of twice the degree keeps every node.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from numpy.typing import NDArray
 from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM, colour_matching, illuminant, observer_table
 from gltf_iri.colour.spaces import XYZ_TO_REC709, White
 
-__all__ = ["HALF_BANDWIDTH_PER_NM", "ColourRule", "colour_rule", "colour_weights"]
+__all__ = ["HALF_BANDWIDTH_PER_NM", "ColourRule", "colour_density", "colour_rule"]
 
 Float64 = NDArray[np.float64]
 
@@ -63,13 +62,13 @@ def colour_rule(degree: int, white: White) -> ColourRule:
     return ColourRule(wavelength_nm, weights)
 
 
-def colour_weights(wavelength_nm: Float64, white: White) -> Float64:
-    """Return the density (..., 3) with rgb = ∫ R(λ) density(λ) dλ, up to each channel's normalisation."""
-    return (colour_matching(wavelength_nm) * illuminant(wavelength_nm, white)[..., None]) @ XYZ_TO_REC709.T
+def colour_density(wavelength_nm: Float64, white: White) -> Float64:
+    """Return the density (..., 3) with rgb = ∫ R(λ) density(λ) dλ; each channel integrates to 1."""
+    return _density(wavelength_nm, white) / _white_integral(white)
 
 
 def _moments(degree: int, white: White) -> Float64:
-    """Return ∫ density(λ) T_k(x(λ)) dλ for k = 0 … degree, shape (degree + 1, 3), normalised to T₀ → 1."""
+    """Return ∫ density(λ) T_k(x(λ)) dλ for k = 0 … degree, shape (degree + 1, 3)."""
     theta, weighted = _panels(degree, white)
     # cos((s i + j)θ) = cos(s i θ) cos(jθ) − sin(s i θ) sin(jθ): two small tables and a matrix product.
     stride = int(np.sqrt(degree)) + 1
@@ -81,8 +80,7 @@ def _moments(degree: int, white: White) -> Float64:
         ((cos_coarse * w) @ cos_fine.T - (sin_coarse * w) @ sin_fine.T).reshape(-1)[: degree + 1]
         for w in weighted.T
     ]
-    moments = np.stack(columns, axis=-1)
-    return moments / moments[0]
+    return np.stack(columns, axis=-1)
 
 
 def _panels(degree: int, white: White) -> tuple[Float64, Float64]:
@@ -96,6 +94,20 @@ def _panels(degree: int, white: White) -> tuple[Float64, Float64]:
     nodes, gauss = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     half = 0.5 * np.diff(edges_nm)[:, None]
     wavelength_nm = (edges_nm[:-1, None] + half + half * nodes).reshape(-1)
-    density = colour_weights(wavelength_nm, white) * (half * gauss).reshape(-1, 1)
+    density = colour_density(wavelength_nm, white) * (half * gauss).reshape(-1, 1)
     x = (1.0 / wavelength_nm - _MIDDLE_PER_NM) / HALF_BANDWIDTH_PER_NM
     return np.arccos(np.clip(x, -1.0, 1.0)), density  # rounding may put an end a hair outside [−1, 1]
+
+
+def _density(wavelength_nm: Float64, white: White) -> Float64:
+    power = illuminant(wavelength_nm, white)[..., None]
+    return np.asarray((colour_matching(wavelength_nm) * power) @ XYZ_TO_REC709.T)
+
+
+@cache
+def _white_integral(white: White) -> Float64:
+    """Return ∫ density dλ (3,) before normalisation: Simpson's rule is exact between the observer's steps."""
+    knots = observer_table()[:, 0]
+    step = np.diff(knots)[:, None]
+    low, middle, high = (_density(w, white) for w in (knots[:-1], 0.5 * (knots[:-1] + knots[1:]), knots[1:]))
+    return np.asarray((step * (low + 4.0 * middle + high) / 6.0).sum(axis=0))

@@ -10,7 +10,7 @@ import warnings
 from types import ModuleType
 from typing import Final
 
-__all__ = ["OBSERVER_FILE", "D65_FILE", "colour_tables", "import_colour_science"]
+__all__ = ["D65_FILE", "OBSERVER_FILE", "colour_tables", "import_colour_science"]
 
 OBSERVER_FILE: Final = "cie1931_2deg_1nm.csv"
 D65_FILE: Final = "d65_5nm.csv"

@@ -1,4 +1,4 @@
-"""Method `spectral`: the truth. Exact Airy reflectance of both polarisations, integrated until it stands still.
+"""Method `spectral`, the truth: exact reflectance of both polarisations, integrated until it stands still.
 
 A base given by its F0 has one real index per channel, and each channel of the answer uses its own; equal
 channels are computed once. Indices may depend on the wavelength (`Base.index_at`, `Film.film_ior_at`).
@@ -53,7 +53,7 @@ class _Rows:
         return np.asarray((2.0 * self._film_ior * self._thickness_nm)[:, 0])
 
     def reflectance(self, rows: NDArray[np.intp], wavelength_nm: Float64) -> Float64:
-        """Return (r, k), or (r, k, 3) where the base's channels differ."""
+        """Return (r, k), or (r, k, 3) where the base's channels differ, at `wavelength_nm` (k,) or (r, k)."""
         film = self._film
         film_ior = self._film_ior[rows] if film.film_ior_at is None else film.film_ior_at(wavelength_nm).real
         if film.base.index_at is not None:

@@ -51,7 +51,7 @@ def normal_index_squared(
 
 
 def normal_index(squared: ArrayLike) -> NDArray[np.complex128]:
-    """Return q with Re q ≥ 0 and Im q ≥ 0: under exp(−iωt), the wave that runs or fades away from the light."""
+    """Return q with Re q ≥ 0 and Im q ≥ 0: under exp(−iωt), the wave that runs, or fades, onward."""
     root = np.sqrt(np.asarray(squared, dtype=np.complex128))
     # A negative zero imaginary part puts the principal root on the growing wave's side.
     return np.asarray(np.abs(root.real) + 1j * np.abs(root.imag))
