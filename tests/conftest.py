@@ -54,3 +54,12 @@ def shared_dir() -> Path:
     if not (folder / "assets").is_dir():
         pytest.skip(f"the reference assets are not there: {folder}")
     return folder
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Say what tests measured (`record_property("measured", sentence)`), not only that a bound held."""
+    reports = [*terminalreporter.stats.get("passed", []), *terminalreporter.stats.get("failed", [])]
+    for report in reports:
+        for key, sentence in report.user_properties:
+            if key == "measured":
+                terminalreporter.write_line(f"measured: {sentence}")
