@@ -21,13 +21,9 @@ def core_verdicts(material: Material) -> Iterator[tuple[Effect, Verdict]]:
         texture_verdict(pbr.base_color_texture, "base color texture", _idle_base_color(material)),
     )
     yield Effect.ALPHA_MASK, _alpha_mask(material)
-    yield (
-        Effect.ALPHA_BLEND,
-        None
-        if material.alpha_mode == "BLEND"
-        else absent(f"blending: the alpha mode is {material.alpha_mode}"),
-    )
-    yield Effect.DOUBLE_SIDED, None if material.double_sided else absent("doubleSided")
+    yield Effect.ALPHA_BLEND, None if material.alpha_mode == "BLEND" else _other_alpha_mode(material)
+    single_sided = Skip("doubleSided is false", is_absent=True)
+    yield Effect.DOUBLE_SIDED, None if material.double_sided else single_sided
     yield Effect.DIELECTRIC, dielectric_verdict(material)
     yield Effect.METAL, metal_verdict(material)
     is_idle = pbr.metallic_factor == 0.0 and pbr.roughness_factor == 0.0
@@ -66,9 +62,13 @@ def _idle_base_color(material: Material) -> str | None:
     return "the base color factor is 0"
 
 
+def _other_alpha_mode(material: Material) -> Skip:
+    return Skip(f"the alpha mode is {material.alpha_mode}", is_absent=True)
+
+
 def _alpha_mask(material: Material) -> Skip | None:
     if material.alpha_mode != "MASK":
-        return absent(f"mask: the alpha mode is {material.alpha_mode}")
+        return _other_alpha_mode(material)
     if material.alpha_cutoff == 0.0:
         return Skip("the cutoff is 0, which no alpha falls below")
     return None

@@ -9,7 +9,7 @@ from gltf_iri.errors import UsageError
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.planning.core import core_verdicts
-from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.effects import MATERIAL_EFFECTS, Effect
 from gltf_iri.planning.extensions import extension_verdicts
 from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, film_verdicts, idle_film
 from gltf_iri.planning.material_plan import MaterialPlan
@@ -50,12 +50,13 @@ def plan_material(material: Material, index: int, *, method: str | None = None) 
     descriptor = find_method(method or DEFAULT_METHOD)
     if descriptor.domain != "film":
         raise UsageError(f"The method '{method}' computes mirrors; a material's film wants another.")
-    verdicts = dict(_verdicts(material, descriptor))
+    decided = dict(_verdicts(material, descriptor))
+    verdicts: dict[Effect, Verdict] = {effect: decided[effect] for effect in MATERIAL_EFFECTS}
     film = verdicts[Effect.IRIDESCENCE]
     return MaterialPlan(
         index=index,
         name=material.name,
-        effects=tuple(effect for effect in Effect if effect in verdicts and verdicts[effect] is None),
+        effects=tuple(e for e, v in verdicts.items() if v is None),
         method=descriptor.name if film is None else None,
         method_reason=_method_reason(material, film, descriptor, is_asked=method is not None),
         layering=_layering(material, descriptor if film is None else None),

@@ -53,7 +53,7 @@ _FILM_METHODS = (
         "KHR_materials_iridescence; guards in spec/iridescence-notes.md",
         is_truth=False,
         glsl_function="iridescent_fresnel_khr_guarded",
-        delta_e_mean=None,
+        delta_e_mean=3.25,
     ),
     Method(
         "spectral",

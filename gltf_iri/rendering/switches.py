@@ -10,23 +10,15 @@ from typing import Final
 
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.permutation import LAYERING_SPECULAR
 
-__all__ = ["LAYERING_SPECULAR", "SHADING_INPUTS", "SWITCHES", "method_define"]
-
-# The dielectric layering of the text's KHR_materials_specular section; without it, the core section's.
-LAYERING_SPECULAR: Final = "LAYERING_SPECULAR"
+__all__ = ["SHADING_INPUTS", "SWITCHES"]
 
 # The frame also receives what each pixel was shaded with (rendering/frame.py).
 SHADING_INPUTS: Final = "SHADING_INPUTS"
 
-
-def method_define(name: str) -> str:
-    """Return the symbol of the film or mirror method `name`: "khr-guarded" → METHOD_KHR_GUARDED."""
-    return "METHOD_" + name.upper().replace("-", "_")
-
-
 SWITCHES: Final = frozenset(
     {effect.define for effect in Effect}
-    | {method_define(name) for name, method in METHODS.items() if method.glsl_function}
+    | {method.define for method in METHODS.values() if method.glsl_function}
     | {LAYERING_SPECULAR, SHADING_INPUTS}
 )
