@@ -70,11 +70,16 @@ def read_primitive(
     if not len(triangles):
         notes.append(f"{pointer} has no triangles and is not drawn.")
         return None
-    attributes = apply_morph_targets(document, attributes, description.get("targets", ()), weights, pointer)
-    if joints is not None:
-        attributes = apply_skin(attributes, joints, pointer)
-        if is_mirroring(joints):
-            triangles = np.ascontiguousarray(triangles[:, ::-1])
+    # Huge displacements overflow float32; what comes of it is refused below instead of warned about here.
+    with np.errstate(over="ignore", invalid="ignore"):
+        targets = description.get("targets", ())
+        attributes = apply_morph_targets(document, attributes, targets, weights, pointer)
+        if joints is not None:
+            attributes = apply_skin(attributes, joints, pointer)
+    if not all(np.isfinite(values).all() for values in attributes.values()):
+        raise AssetError("morph targets or joints move a vertex beyond what float32 holds", pointer=pointer)
+    if joints is not None and is_mirroring(joints):
+        triangles = np.ascontiguousarray(triangles[:, ::-1])
     if "NORMAL" not in attributes:
         attributes, triangles = _flat(attributes, triangles)
     normals, lost = repaired_normals(attributes["POSITION"], attributes["NORMAL"], triangles)
@@ -121,8 +126,6 @@ def _read_attributes(document: Document, references: dict[str, int], pointer: st
         values = document.accessor(references[name]).astype(np.float32)
         if values.ndim != 2 or values.shape[1] not in allowed:
             raise AssetError(f"{name} cannot have the shape {values.shape[1:]}", pointer=where)
-        if not np.all(np.isfinite(values)):
-            raise AssetError(f"{name} holds a number that is not finite", pointer=where)
         count = len(attributes.get("POSITION", values))
         if len(values) != count:
             raise AssetError(f"{name} has {len(values)} entries for {count} vertices", pointer=where)
