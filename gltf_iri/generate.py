@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
+from gltf_iri.colour.tables import D65_FILE, OBSERVER_FILE, d65_csv, observer_csv
 from gltf_iri.material.interface import interface_glsl
 from gltf_iri.material.property_table import properties_markdown
 from gltf_iri.rendering.constants import constants_glsl
@@ -22,6 +23,8 @@ GENERATED: Mapping[str, Callable[[], str]] = MappingProxyType(
     {
         "shaders/generated/constants.glsl": constants_glsl,
         "shaders/generated/material.glsl": interface_glsl,
+        f"gltf_iri/colour/data/{D65_FILE}": d65_csv,
+        f"gltf_iri/colour/data/{OBSERVER_FILE}": observer_csv,
         "spec/properties.md": properties_markdown,
     }
 )

@@ -14,7 +14,7 @@ Float64 = NDArray[np.float64]
 
 
 def delta_e_2000(rgb_a: ArrayLike, rgb_b: ArrayLike) -> Float64:
-    """Return CIEDE2000 (...) between linear Rec.709 colours (..., 3), CIELAB under D65; (1, 1, 1) is L* = 100.
+    """Return CIEDE2000 (...) between linear Rec.709 colours (..., 3), CIELAB/D65; (1, 1, 1) is L* = 100.
 
     Negative channels, which no display shows, are cut to 0 on both sides; values above 1 are kept.
     """

@@ -2,8 +2,8 @@
 
 The integrand is a smooth reflectance times colour weights that are only piecewise smooth. So the reflectance
 alone is interpolated, by the polynomial through Chebyshev–Lobatto nodes in wavenumber ν = 1/λ (in which film
-fringes are plain cosines), and the weights are the exact integrals of its Chebyshev terms against observer and
-illuminant (product integration; Sloan & Smith 1978). A rule of twice the degree keeps every node.
+fringes are plain cosines), and the weights are the exact integrals of its Chebyshev terms against observer
+and illuminant (product integration; Sloan & Smith 1978). A rule of twice the degree keeps every node.
 """
 
 from __future__ import annotations

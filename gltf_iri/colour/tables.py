@@ -10,7 +10,7 @@ import warnings
 from types import ModuleType
 from typing import Final
 
-__all__ = ["D65_FILE", "OBSERVER_FILE", "colour_tables", "import_colour_science"]
+__all__ = ["D65_FILE", "OBSERVER_FILE", "d65_csv", "import_colour_science", "observer_csv"]
 
 OBSERVER_FILE: Final = "cie1931_2deg_1nm.csv"
 D65_FILE: Final = "d65_5nm.csv"
@@ -24,21 +24,21 @@ def import_colour_science() -> ModuleType:
     return colour  # type: ignore[no-any-return]
 
 
-def colour_tables() -> dict[str, str]:
-    """Return {path inside gltf_iri: text} of every colour table, as exported from colour-science."""
-    colour = import_colour_science()
-    observer = colour.MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
-    d65 = colour.SDS_ILLUMINANTS["D65"]
-    observer_rows = [
-        ",".join([f"{wavelength:g}", *(repr(float(v)) for v in values)])
+def observer_csv() -> str:
+    """Return the CIE 1931 2° colour matching functions, 360–830 nm in steps of 1 nm."""
+    observer = import_colour_science().MSDS_CMFS["CIE 1931 2 Degree Standard Observer"]
+    rows = [
+        ",".join([f"{wavelength:g}", *(repr(float(value)) for value in values)])
         for wavelength, values in zip(observer.wavelengths, observer.values, strict=True)
-        if 360 <= wavelength <= 830
     ]
-    d65_rows = [f"{w:g},{float(v)!r}" for w, v in zip(d65.wavelengths, d65.values, strict=True)]
-    return {
-        f"colour/data/{OBSERVER_FILE}": _csv("wavelength_nm,x_bar,y_bar,z_bar", observer_rows),
-        f"colour/data/{D65_FILE}": _csv("wavelength_nm,relative_power", d65_rows),
-    }
+    return _csv("wavelength_nm,x_bar,y_bar,z_bar", rows)
+
+
+def d65_csv() -> str:
+    """Return illuminant D65, 300–780 nm in steps of 5 nm."""
+    d65 = import_colour_science().SDS_ILLUMINANTS["D65"]
+    rows = [f"{w:g},{float(power)!r}" for w, power in zip(d65.wavelengths, d65.values, strict=True)]
+    return _csv("wavelength_nm,relative_power", rows)
 
 
 def _csv(header: str, rows: list[str]) -> str:

@@ -7,6 +7,8 @@ departure is x·x for pow(x, 2.0), which GLSL leaves undefined for x < 0: no val
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -19,6 +21,7 @@ from gltf_iri.optics.refraction import cos_theta_2_squared
 __all__ = ["evaluate_khr", "iridescent_fresnel_khr", "khr_branch_distance_ulp"]
 
 Float64 = NDArray[np.float64]
+Sensitivity = Callable[[Float64, Float64], Float64]
 
 F0_OFFSET = 0.0001  # the text's "guard against 1.0", which moves the pole from 1 to 0.9999
 R123_RANGE = (1e-5, 0.9999)
@@ -31,11 +34,14 @@ def iridescent_fresnel_khr(
     base_f0: ArrayLike,
     thickness_nm: ArrayLike,
     cos_theta_1: ArrayLike,
+    *,
+    sensitivity: Sensitivity = eval_sensitivity,
 ) -> Float64:
     """Return the text's iridescent_fresnel(...), linear Rec.709 (..., 3), clamped below at 0 and not above.
 
     outside_ior, film_ior, thickness_nm, cos_theta_1 : (...), broadcast together.
     base_f0 : (..., 3).
+    sensitivity : what stands for the text's evalSensitivity; the benchmark puts exact integrals here.
     """
     n1, n2, d_nm, c1 = (
         np.asarray(a, dtype=np.float64)[..., None] for a in (outside_ior, film_ior, thickness_nm, cos_theta_1)
@@ -69,7 +75,7 @@ def iridescent_fresnel_khr(
     Cm = Rs - T121
     for m in ORDERS:
         Cm = Cm * r123
-        colour = colour + Cm * 2.0 * eval_sensitivity(m * opd_nm[..., 0], m * phi)
+        colour = colour + Cm * 2.0 * sensitivity(m * opd_nm[..., 0], m * phi)
 
     return np.asarray(np.where(cos2_sq < 0.0, 1.0, np.maximum(colour, 0.0)))
 
