@@ -56,9 +56,9 @@ def test_glsl_film_equals_python_film(
     record_property(
         "measured",
         f"{request.node.callspec.id}, GLSL on {glsl.backend} against Python: max abs "
-        f"{error[compared].max():.2e} over {compared.sum()} rows; {near.sum()} within {GLSL_BRANCH_ULP} ulp of a "
-        f"branch, {other_side.sum()} of them on its other side; {undefined.sum()} undefined and not compared; "
-        f"undefined by the text: {cases or 'none'}",
+        f"{error[compared].max():.2e} over {compared.sum()} rows; {near.sum()} within {GLSL_BRANCH_ULP} ulp "
+        f"of a branch, {other_side.sum()} of them on its other side; {undefined.sum()} undefined and not "
+        f"compared; undefined by the text: {cases or 'none'}",
     )
     assert error[compared].max() <= GLSL_OPTICS_MAX_ABS
     assert unexplained == 0
