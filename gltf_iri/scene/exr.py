@@ -63,4 +63,6 @@ def _open(path: Path, *, header_only: bool) -> OpenEXR.File:
             picture: Any = OpenEXR.File(str(path), separate_channels=True, header_only=header_only)
         except (OSError, RuntimeError, TypeError, ValueError) as error:
             raise AssetError("the file is not an OpenEXR picture that can be read", file=path) from error
+    if not picture.parts:
+        raise AssetError("the OpenEXR picture is damaged or cut short", file=path)
     return picture

@@ -33,9 +33,9 @@ class SoftBox:
 # draws the edge, where films change their colour most; the overhead keeps upward faces from falling black.
 STUDIO_BOXES: Final = (
     SoftBox(math.radians(42.0), math.radians(38.0), 0.36, 0.30, 12.0, 0.15),
-    SoftBox(math.radians(-68.0), math.radians(12.0), 0.50, 0.65, 2.6, 0.45),
+    SoftBox(math.radians(-68.0), math.radians(8.0), 0.50, 0.60, 2.8, 0.45),
     SoftBox(math.radians(-148.0), math.radians(18.0), 0.10, 0.75, 8.0, 0.20),
-    SoftBox(math.radians(0.0), math.radians(84.0), 0.75, 0.45, 2.4, 0.50),
+    SoftBox(math.radians(0.0), math.radians(84.0), 0.55, 0.40, 2.6, 0.45),
 )
 
 # Radiance of the dome straight down, at the horizon and straight up: a dark floor under a soft sky.

@@ -1,0 +1,160 @@
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from gltf_iri.errors import AssetError
+from gltf_iri.scene.camera import MARGIN, frame_scene, orbit_scene, projection_matrix, read_camera
+from gltf_iri.scene.model import Primitive, Scene
+
+PERSPECTIVE = {"type": "perspective", "perspective": {"yfov": math.radians(60), "znear": 0.5, "zfar": 20.0}}
+ORTHOGRAPHIC = {
+    "type": "orthographic",
+    "orthographic": {"xmag": 3.0, "ymag": 2.0, "znear": 1.0, "zfar": 9.0},
+}
+SLOPE = math.tan(math.radians(30))
+
+
+def _camera(description=PERSPECTIVE, world=None, **lens):
+    kind = description["type"]
+    description = {"type": kind, kind: {**description[kind], **lens}}
+    return read_camera(description, np.eye(4) if world is None else world, "camera", "/cameras/0")
+
+
+def _seen(camera, points, aspect):
+    """Normalised device coordinates of world points (n, 3)."""
+    clip = (
+        np.column_stack([points, np.ones(len(points))]) @ (projection_matrix(camera, aspect) @ camera.view).T
+    )
+    return clip[:, :3] / clip[:, 3:]
+
+
+def _scene(points):
+    points = np.asarray(points, dtype=np.float32)
+    triangles = np.arange(len(points) // 3 * 3, dtype=np.uint32).reshape(-1, 3)
+    return Scene("", (Primitive("", "", -1, points, points, triangles, np.eye(4)),), (), ())
+
+
+def test_corners_of_a_perspective_frustum_reach_the_corners_of_clip_space():
+    corners = [
+        (2 * 0.5 * SLOPE, 0.5 * SLOPE, -0.5),
+        (-2 * 20 * SLOPE, -20 * SLOPE, -20),
+        (0, 0, -20),
+    ]
+    expected = [(1, 1, -1), (-1, -1, 1), (0, 0, 1)]
+    np.testing.assert_allclose(_seen(_camera(), corners, aspect=2), expected, atol=1e-12)
+
+
+def test_an_infinite_perspective_keeps_the_near_plane_and_reaches_one_only_in_the_limit():
+    description = {"type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.5}}
+    depth = _seen(_camera(description), np.array([[0, 0, -0.5], [0, 0, -1], [0, 0, -1e12]]), 1)[:, 2]
+    np.testing.assert_allclose(depth, [-1, 0, 1], atol=1e-11)
+
+
+def test_corners_of_an_orthographic_box_reach_the_corners_of_clip_space():
+    seen = _seen(_camera(ORTHOGRAPHIC), np.array([[3, 2, -1], [-3, -2, -9], [1.5, 0, -5]]), aspect=1.5)
+    np.testing.assert_allclose(seen, [(1, 1, -1), (-1, -1, 1), (0.5, 0, 0)], atol=1e-12)
+
+
+@pytest.mark.parametrize("description", [PERSPECTIVE, ORTHOGRAPHIC])
+@pytest.mark.parametrize("aspect", [0.5, 1.5, 3.0])
+def test_a_picture_of_another_shape_stretches_nothing_and_keeps_what_the_author_framed(description, aspect):
+    camera = _camera(description, **({"aspectRatio": 1.5} if description is PERSPECTIVE else {}))
+    matrix = projection_matrix(camera, aspect)
+    assert matrix[1, 1] == pytest.approx(aspect * matrix[0, 0])  # equal lengths stay equal in pixels
+    own = projection_matrix(camera, 1.5)
+    assert matrix[0, 0] <= own[0, 0] * (1 + 1e-12)
+    assert matrix[1, 1] <= own[1, 1] * (1 + 1e-12)
+
+
+def test_a_camera_stands_where_its_node_does_whatever_the_scale():
+    turn = np.array([[0, 0, 1, 5.0], [0, 1, 0, 6], [-1, 0, 0, 7], [0, 0, 0, 1]])  # −Z becomes −X
+    camera = _camera(world=turn @ np.diag([2.0, 3.0, 4.0, 1.0]))
+    np.testing.assert_allclose(camera.position, (5, 6, 7))
+    seen = _seen(camera, np.array([[4.0, 6, 7], [3, 6.1, 7], [3, 6, 6.9]]), 1)
+    np.testing.assert_allclose(seen[0, :2], (0, 0), atol=1e-12)
+    assert seen[1, 1] > 0  # up stays up
+    assert seen[2, 0] > 0  # looking along −X, −Z lies to the right
+
+
+@pytest.mark.parametrize(
+    ("description", "lens"),
+    [(PERSPECTIVE, {"zfar": 0.25}), (PERSPECTIVE, {"yfov": 3.2}), (ORTHOGRAPHIC, {"xmag": 0.0})],
+)
+def test_a_lens_without_a_frustum_is_refused(description, lens):
+    with pytest.raises(AssetError) as caught:
+        _camera(description, **lens)
+    assert caught.value.pointer == f"/cameras/0/{description['type']}"
+
+
+def test_a_camera_on_a_node_without_extent_is_refused():
+    with pytest.raises(AssetError, match="looks nowhere"):
+        _camera(world=np.zeros((4, 4)))
+
+
+def test_cameras_of_the_file_are_found_with_their_names(triangle):
+    triangle.json["cameras"] = [{**PERSPECTIVE, "name": "lens"}, ORTHOGRAPHIC]
+    triangle.json["nodes"] += [{"camera": 0}, {"camera": 1, "name": "tripod", "translation": [0, 0, 4]}]
+    triangle.json["scenes"] = [{"nodes": [0, 1, 2]}]
+    first, second = triangle.load().scene().cameras
+    assert (first.name, first.kind) == ("lens", "perspective")
+    assert (second.name, second.kind) == ("tripod", "orthographic")
+    np.testing.assert_array_equal(second.position, (0, 0, 4))
+
+
+@pytest.mark.parametrize("aspect", [0.4, 1.0, 2.5])
+@pytest.mark.parametrize("azimuth_rad", [0.0, 0.4, 2.0, -3.0])
+def test_automatic_framing_holds_every_vertex_and_fits_tightly(aspect, azimuth_rad):
+    points = np.random.default_rng(3).normal(size=(300, 3)) * (4, 1, 0.3) + (100, -20, 3)
+    camera = frame_scene(_scene(points), aspect=aspect, azimuth_rad=azimuth_rad)
+    seen = _seen(camera, points, aspect)
+    assert np.all(np.abs(seen) <= 1)
+    fullest = max(np.ptp(seen[:, 0]), np.ptp(seen[:, 1]))
+    assert fullest == pytest.approx(2 * (1 - MARGIN), rel=1e-3)
+    for axis in range(2):
+        if np.ptp(seen[:, axis]) > fullest - 1e-3:
+            assert seen[:, axis].max() == pytest.approx(-seen[:, axis].min(), abs=1e-3)
+
+
+def test_automatic_framing_looks_from_the_front_a_little_from_the_right_and_above():
+    camera = frame_scene(_scene([[-1, -1, -1], [1, -1, -1], [0, 1, 1]]), aspect=1)
+    x, y, z = camera.position
+    assert z > x > 0
+    assert z > y > 0
+    seen = _seen(camera, np.array([[-1.0, -1, -1], [1, -1, -1], [0, 1, 1]]), 1)
+    assert seen[1, 0] > seen[0, 0]
+    assert seen[2, 1] > seen[1, 1]
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-6, 1e6])
+def test_automatic_framing_is_finite_for_specks_and_giants(size):
+    points = size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 1]])
+    camera = frame_scene(_scene(points), aspect=1.5)
+    assert np.all(np.isfinite(camera.view))
+    assert 0 < camera.znear_m < camera.zfar_m < math.inf
+    assert np.all(np.abs(_seen(camera, points, 1.5)) <= 1)
+
+
+def test_framing_counts_drawn_vertices_only():
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e9, 0, 0]], dtype=np.float32)
+    low, high = _scene(points).bounds()
+    np.testing.assert_array_equal(high, (1, 1, 0))
+    np.testing.assert_array_equal(low, (0, 0, 0))
+
+
+def test_an_orbit_keeps_its_distance_and_everything_in_the_picture():
+    points = np.random.default_rng(4).normal(size=(300, 3)) * (4, 1, 0.3) + (100, -20, 3)
+    cameras = orbit_scene(_scene(points), aspect=1.5, count=7)
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    distances = [np.linalg.norm(camera.position - middle) for camera in cameras]
+    np.testing.assert_allclose(distances, distances[0], rtol=1e-5)
+    for camera in cameras:
+        assert np.all(np.abs(_seen(camera, points, 1.5)) <= 1)
+        np.testing.assert_allclose(_seen(camera, middle[None], 1.5)[0, :2], 0, atol=1e-4)
+
+
+def test_an_empty_scene_cannot_be_framed():
+    with pytest.raises(AssetError, match="no triangles"):
+        frame_scene(Scene("", (), (), ()), aspect=1)
