@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.asset.accessor import BufferView, read_accessor
-from gltf_iri.asset.glb import MAGIC, split_glb
+from gltf_iri.asset.glb import JSON_OFFSET, MAGIC, split_glb
 from gltf_iri.asset.guard import Budget, decode_data_uri, is_data_uri, read_given, read_inside
 from gltf_iri.asset.image import Image, decode_image
 from gltf_iri.asset.limits import MAX_FILE_BYTES, MAX_IMAGE_FILE_BYTES
@@ -169,13 +169,13 @@ def open_document(path: str | PathLike[str]) -> Document:
         budget = Budget()
         budget.spend(len(data), "")
         notes: list[str] = []
-        binary = None
+        binary, start = None, 0
         text: bytes | memoryview = data
         if data.startswith(MAGIC) or place.suffix.lower() == ".glb":
             container = split_glb(data)
-            text, binary = container.json, container.binary
+            text, binary, start = container.json, container.binary, JSON_OFFSET
             notes += container.notes
-        json = parse_json(text)
+        json = parse_json(text, start)
         notes += check_structure(json)
         return Document(place, json, binary, budget, notes)
 

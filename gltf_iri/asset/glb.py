@@ -8,12 +8,13 @@ from typing import Final
 
 from gltf_iri.errors import AssetError
 
-__all__ = ["MAGIC", "Container", "split_glb"]
+__all__ = ["JSON_OFFSET", "MAGIC", "Container", "split_glb"]
 
 MAGIC: Final = b"glTF"
 
 _HEADER: Final = struct.Struct("<4sII")  # magic, version, length of the whole file
 _CHUNK: Final = struct.Struct("<I4s")  # length of the data, type
+JSON_OFFSET: Final = _HEADER.size + _CHUNK.size  # where the text of the first chunk starts
 _JSON: Final = b"JSON"
 _BIN: Final = b"BIN\0"
 

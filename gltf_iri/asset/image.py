@@ -119,6 +119,9 @@ def _as_rgba(picture: PillowImage, bits: int) -> PillowImage:
     if bits == 16:
         # tRNS names a 16-bit colour; Pillow would compare it with the upper 8 bits.
         picture.info.pop("transparency", None)
+    elif picture.mode == "L" and bits < 8 and "transparency" in picture.info:
+        # Pillow scales the pixels to 8 bits, but not the grey that tRNS names.
+        picture.info["transparency"] *= 255 // (2**bits - 1)
     if picture.mode.startswith("I"):
         # Pillow's own conversion clips 16-bit grey at 255 instead of scaling it.
         upper = np.right_shift(np.asarray(picture), 8).astype(np.uint8)

@@ -27,9 +27,17 @@ _ESCAPED_SURROGATE: Final = re.compile(r"\\u[dD][89a-fA-F]")
 _LONGEST_EXACT_INTEGER: Final = 16  # characters of 2**53, and of −999 999 999 999 999
 
 
-def parse_json(data: bytes | memoryview) -> Any:
-    """Parse strict JSON; raise AssetError with the pointer (or byte offset) of what is wrong."""
-    text = _decoded(bytes(data) if isinstance(data, memoryview) else data)
+def parse_json(data: bytes | memoryview, start: int = 0) -> Any:
+    """Parse strict JSON; raise AssetError with the pointer (or byte offset) of what is wrong.
+
+    `start` is where the text begins in its file; offsets in errors count from the beginning of the file.
+    """
+    try:
+        text = _decoded(bytes(data) if isinstance(data, memoryview) else data)
+    except AssetError as error:
+        if error.offset is not None:
+            error.offset += start
+        raise
     hooks = _Hooks()
     try:
         tree = json.loads(

@@ -40,15 +40,26 @@ def check_structure(root: Any) -> list[str]:
         raise AssetError(f"the file holds {kind_of(root)}, but glTF is an object", pointer="")
     checker = _Checker(root)
     checker.object("glTF", root, "")
-    checker.notes += _version_notes(root["asset"])
     check_hierarchy(root)
-    return checker.notes
+    return [*checker.notes(), *_version_notes(root["asset"])]
 
 
 class _Checker:
     def __init__(self, root: dict[str, Any]) -> None:
-        self.notes: list[str] = []
+        # Remark to the first place it was made at and how often: exporters repeat themselves on every node.
+        self._remarks: dict[tuple[str, str], tuple[str, int]] = {}
         self._lengths = {key: len(value) for key, value in root.items() if isinstance(value, list)}
+
+    def notes(self) -> list[str]:
+        """One sentence a remark."""
+        return [
+            f"{place}: {what}{f', here and in {times - 1} more places' if times > 1 else ''}."
+            for (_, what), (place, times) in self._remarks.items()
+        ]
+
+    def _remark(self, row: Row, what: str, pointer: str) -> None:
+        place, times = self._remarks.get((row.key, what), (pointer, 0))
+        self._remarks[row.key, what] = (place, times + 1)
 
     def object(self, table: str, value: dict[str, Any], pointer: str) -> None:
         self._check_extensions(value, pointer)
@@ -89,13 +100,13 @@ class _Checker:
         else:
             self._array(row, value, pointer)
         if row.needs and row.needs not in holder:
-            self.notes.append(f"{pointer}: {row.key!r} means nothing without {row.needs!r}.")
+            self._remark(row, f"{row.key!r} means nothing without {row.needs!r}", pointer)
 
     def _array(self, row: Row, value: Any, pointer: str) -> None:
         if not isinstance(value, list):
             raise _mismatch(value, "an array", pointer)
         if not value and row.max_items is None and not row.required:
-            self.notes.append(f"{pointer}: the array is empty; glTF wants it left out.")
+            self._remark(row, "the array is empty and should be left out", pointer)
             return
         if len(value) < row.min_items or len(value) > (row.max_items or len(value)):
             raise AssetError(f"the array has {len(value)} items, not {_allowed_length(row)}", pointer=pointer)
@@ -112,7 +123,7 @@ class _Checker:
         if not isinstance(value, dict):
             raise _mismatch(value, "an object", pointer)
         if not value:
-            self.notes.append(f"{pointer}: the object is empty; glTF wants at least one entry.")
+            self._remark(row, "the object is empty, but should have an entry", pointer)
         for key, item in value.items():
             value[key] = self._value(row, item, join(pointer, key))
 

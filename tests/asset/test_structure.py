@@ -219,6 +219,13 @@ def test_what_cannot_hurt_is_at_most_a_note(pointer: str, value: Any) -> None:
     assert all(note.endswith(".") for note in notes)
 
 
+def test_the_same_remark_is_made_once() -> None:
+    nodes: list[dict[str, Any]] = [{"children": []} for _ in range(1000)]
+    (note,) = check_structure({"asset": {"version": "2.0"}, "nodes": nodes})
+    assert note.startswith("/nodes/0/children: ")
+    assert "999 more" in note
+
+
 def test_an_integer_written_as_float_becomes_an_integer() -> None:
     root = changed("/nodes/1/mesh", 0.0)
     root["accessors"][0]["count"] = 3.0
