@@ -32,14 +32,14 @@ class SoftBox:
 # The key shows the film's colour in one broad highlight; the fill opens the other side; the strip behind
 # draws the edge, where films change their colour most; the overhead keeps upward faces from falling black.
 STUDIO_BOXES: Final = (
-    SoftBox(math.radians(42.0), math.radians(38.0), 0.36, 0.30, 12.0, 0.15),
+    SoftBox(math.radians(62.0), math.radians(28.0), 0.34, 0.30, 12.0, 0.15),
     SoftBox(math.radians(-68.0), math.radians(8.0), 0.50, 0.60, 2.8, 0.45),
     SoftBox(math.radians(-148.0), math.radians(18.0), 0.10, 0.75, 8.0, 0.20),
     SoftBox(math.radians(0.0), math.radians(84.0), 0.55, 0.40, 2.6, 0.45),
 )
 
 # Radiance of the dome straight down, at the horizon and straight up: a dark floor under a soft sky.
-_FLOOR, _HORIZON, _ZENITH = 0.08, 0.42, 0.70
+_FLOOR, _HORIZON, _ZENITH = 0.14, 0.45, 0.70
 
 
 def directions(height: int) -> Float64:
@@ -62,7 +62,7 @@ def studio_radiance() -> Float32:
     up = direction[:, :, 1]
     above = _smooth(up)
     radiance = np.where(
-        up < 0.0, _HORIZON + (_FLOOR - _HORIZON) * _smooth(-up * 3.0), _HORIZON + (_ZENITH - _HORIZON) * above
+        up < 0.0, _HORIZON + (_FLOOR - _HORIZON) * _smooth(-up * 1.8), _HORIZON + (_ZENITH - _HORIZON) * above
     )
     for box in STUDIO_BOXES:
         radiance = radiance + box.radiance * _box_mask(box, direction)
