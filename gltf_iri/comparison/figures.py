@@ -1,24 +1,41 @@
-"""Maps of the differences between two pictures, with a colour bar, as PNG bytes."""
+"""Pictures and maps of their differences, as PNG bytes, transparent where nothing was drawn."""
 
 from __future__ import annotations
 
 import io
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.rendering.picture import display_pixels
 from gltf_iri.tolerances import GLSL_PIXEL_RELATIVE
 
-__all__ = ["delta_e_map", "deviation_map"]
+__all__ = ["TONEMAP", "delta_e_map", "deviation_map", "picture"]
 
 Float64 = NDArray[np.float64]
 Mask = NDArray[np.bool_]
+
+# Base colours keep their hue and lightness, so that what differs before it differs after it.
+TONEMAP: Final = "neutral"
 
 # Readable on white and on near-black alike, for the maps are transparent around their pixels.
 _INK = "#7d8590"
 
 # float32 cannot agree better than this; the colour scale starts here.
 _DEVIATION_FLOOR = 1e-8
+
+
+def picture(linear: Float64, drawn: Mask, exposure: float) -> bytes:
+    """Return linear Rec.709 (height, width, 3) for a display: × 2^exposure, TONEMAP, sRGB."""
+    import PIL.Image
+
+    shown = np.where(drawn[..., None], np.nan_to_num(linear), 0.0).astype(np.float32)
+    alpha = np.where(drawn, 255, 0).astype(np.uint8)[..., None]
+    stream = io.BytesIO()
+    rgba = np.concatenate([display_pixels(shown, exposure, TONEMAP), alpha], axis=-1)
+    PIL.Image.fromarray(rgba).save(stream, format="PNG")
+    return stream.getvalue()
 
 
 def deviation_map(deviation: Float64, drawn: Mask) -> bytes:
@@ -40,7 +57,7 @@ def delta_e_map(delta_e: Float64, drawn: Mask) -> bytes:
     return _map(delta_e, drawn, Normalize(0.0, top), "ΔE2000", "inferno")
 
 
-def _map(values: Float64, drawn: Mask, norm: object, label: str, colours: str) -> bytes:
+def _map(values: Float64, drawn: Mask, norm: Any, label: str, colours: str) -> bytes:
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 

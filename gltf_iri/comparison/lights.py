@@ -26,7 +26,8 @@ def arriving(light: Light, position: Float64) -> tuple[Float64, Float64]:
         shape = position.shape
         return np.broadcast_to(-light.direction, shape), np.broadcast_to(emitted, shape)
     offset = light.position - position
-    distance = np.linalg.norm(offset, axis=-1)
+    # A point of the surface on which the light sits has no direction; a micrometre keeps it finite.
+    distance = np.maximum(np.linalg.norm(offset, axis=-1), 1e-6)
     direction = offset / distance[:, None]
     share = 1.0 / distance**2
     if light.range_m is not None:

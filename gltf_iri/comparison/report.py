@@ -10,41 +10,42 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
-from gltf_iri.comparison.figures import delta_e_map, deviation_map
+from gltf_iri.comparison.figures import delta_e_map, deviation_map, picture
 from gltf_iri.comparison.result import Comparison
-from gltf_iri.rendering.picture import write_picture
+from gltf_iri.errors import UsageError
 
 __all__ = ["report_html", "write_report"]
 
-_TONEMAP = "neutral"
 
-
-def write_report(comparison: Comparison, folder: Path, *, exposure: float) -> dict[str, Path]:
+def write_report(comparison: Comparison, folder: Path) -> dict[str, Path]:
     """Write every file of the report into `folder` (made if missing) and return their paths by name.
 
-    Each file appears whole or not at all. `exposure` is the pictures', as `write_picture` takes it.
+    Each file appears whole or not at all. Raises UsageError where the folder cannot be written to.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    pictures, paths = comparison.pictures, {}
-    for name, linear in (("glsl", pictures.glsl), ("python", pictures.python), ("truth", pictures.truth)):
-        paths[name] = folder / f"{name}.png"
-        write_picture(paths[name], _with_alpha(linear, pictures.drawn), exposure, _TONEMAP)
-    maps = {
-        "difference_glsl_python": deviation_map(pictures.deviation, pictures.drawn),
-        "difference_method_truth": delta_e_map(pictures.delta_e, pictures.drawn),
-    }
-    if pictures.texture_delta_e is not None:
-        maps["difference_8bit_textures"] = delta_e_map(pictures.texture_delta_e, pictures.drawn)
-    for name, data in maps.items():
-        paths[name] = _replace(folder / f"{name}.png", data)
+    images = _images(comparison)
     report = json.dumps(_strict(comparison.to_json()), indent=2, ensure_ascii=False, allow_nan=False)
-    images = {name: path.read_bytes() for name, path in paths.items()}
-    paths["report"] = _replace(folder / "report.json", (report + "\n").encode())
-    paths["page"] = _replace(folder / "index.html", report_html(comparison, images).encode())
-    return paths
+    files = {name: (f"{name}.png", data) for name, data in images.items()}
+    files["report"] = ("report.json", f"{report}\n".encode())
+    files["page"] = ("index.html", report_html(comparison, images).encode())
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        return {name: _replace(folder / file, data) for name, (file, data) in files.items()}
+    except OSError as error:
+        raise UsageError(f"'{folder}' cannot be written to: {error.strerror or error}.") from error
+
+
+def _images(comparison: Comparison) -> dict[str, bytes]:
+    shown, exposure = comparison.pictures, float(comparison.setup["exposure"])
+    images = {
+        "glsl": picture(shown.glsl, shown.drawn, exposure),
+        "python": picture(shown.python, shown.drawn, exposure),
+        "truth": picture(shown.truth, shown.drawn, exposure),
+        "difference_glsl_python": deviation_map(shown.deviation, shown.drawn),
+        "difference_method_truth": delta_e_map(shown.delta_e, shown.drawn),
+    }
+    if shown.texture_delta_e is not None:
+        images["difference_8bit_textures"] = delta_e_map(shown.texture_delta_e, shown.drawn)
+    return images
 
 
 def report_html(comparison: Comparison, images: dict[str, bytes]) -> str:
@@ -74,10 +75,6 @@ def _figure(value: float | None) -> str:
         return f"{value:.3g}"
     mantissa, exponent = f"{value:.1e}".split("e")
     return f"{mantissa}·10{str(int(exponent)).translate(str.maketrans('-0123456789', '⁻⁰¹²³⁴⁵⁶⁷⁸⁹'))}"
-
-
-def _with_alpha(linear: NDArray[np.float64], drawn: NDArray[np.bool_]) -> NDArray[np.float32]:
-    return np.concatenate([linear, drawn[..., None]], axis=-1).astype(np.float32)
 
 
 def _strict(value: Any) -> Any:

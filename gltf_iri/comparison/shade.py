@@ -146,7 +146,7 @@ def _punctual_light(pixels: Pixels, plan: MaterialPlan, film: _FilmAt, light: Li
     )
     through = dielectric.base_weight[:, None] * pixels.base_color / np.pi
     reflected = _by_metalness(pixels, through + dielectric.specular * lobe[:, None], metal * lobe[:, None])
-    return illuminance * n_dot_l[:, None] * reflected
+    return np.asarray(illuminance * n_dot_l[:, None] * reflected)
 
 
 def _films(

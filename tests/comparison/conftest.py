@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from gltf_iri.comparison.judge import Shot, judge
+from gltf_iri.comparison.result import Comparison
+from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.rendering.frame import ShadingInputs
+from gltf_iri.rendering.frame import Frame, ShadingInputs
 from gltf_iri.scene.model import Camera, Light
 
 
@@ -74,3 +79,40 @@ def sun() -> Callable[..., Light]:
         return Light("sun", "directional", (1.0, 1.0, 1.0), 3.0, np.zeros(3), np.array(direction))
 
     return build
+
+
+@pytest.fixture
+def judged(row_of_pixels, camera, plan, sun) -> Callable[..., Comparison]:
+    """Judge a row of lit, film-covered metal whose GLSL colours are Python's own plus `error`."""
+
+    def build(
+        error: float = 0.0,
+        *,
+        count: int = 16,
+        name: str = "test",
+        method: str = "khr-guarded",
+        **values: object,
+    ) -> Comparison:
+        material = Material(name=name, iridescence=Iridescence(factor=1.0, film_ior=1.35))
+        inputs = row_of_pixels(count, metallic=1, iridescence_factor=1, **values)
+        its_plan = plan(Effect.METAL, method=method, layering="specular", name=name)
+        shot = Shot(
+            file="row.gltf",
+            materials=(material,),
+            plans=(its_plan,),
+            lights=(sun(),),
+            camera=camera,
+            white="D65",
+            exposure=1.0,
+            setup={"size": [count, 1], "camera": "eye", "environment": "none", "exposure": 0.0},
+            program={"gltf_iri": "0"},
+        )
+        exact = judge(frame_of(inputs), shot).pictures.python
+        return judge(frame_of(replace(inputs, colour=(exact + error).astype(np.float32))), shot)
+
+    return build
+
+
+def frame_of(inputs: ShadingInputs) -> Frame:
+    rgba = np.concatenate([inputs.colour, np.ones((*inputs.material.shape, 1), np.float32)], axis=-1)
+    return Frame(rgba, "made by hand", 0.0, (), inputs)

@@ -1,0 +1,83 @@
+"""Renders a file with its shading inputs and has the frame judged."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gltf_iri import __version__
+from gltf_iri.comparison.figures import TONEMAP
+from gltf_iri.comparison.judge import Shot, judge
+from gltf_iri.comparison.result import Comparison
+from gltf_iri.material.material import Material
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.rendering.render import Renderer, complete_plans
+from gltf_iri.scene.load import Model
+from gltf_iri.scene.model import Camera, Environment, Scene
+
+if TYPE_CHECKING:
+    import moderngl
+
+__all__ = ["STEPS", "compare"]
+
+STEPS = ("drawing", "drawing with 8-bit textures", "shading again in Python")
+
+
+def compare(
+    context: moderngl.Context,
+    model: Model,
+    scene: Scene,
+    plans: Sequence[MaterialPlan],
+    camera: Camera,
+    environment: Environment | None,
+    *,
+    size: tuple[int, int],
+    exposure: float = 0.0,
+    white: str = "D65",
+    advance: Callable[[], None] = lambda: None,
+) -> Comparison:
+    """Draw `scene`, shade every pixel again in float64, by the plan's method and by truth, and compare.
+
+    Parameters
+    ----------
+    plans : one for each material of `model`; the default material's is added where the scene uses it.
+    size : width and height in pixels; each pixel is compared, none is sampled for another.
+    exposure : in EV; linear light is multiplied by 2^exposure before ΔE2000 and for the pictures.
+    white : of the truth, "D65" or "E".
+    advance : called after each of STEPS.
+
+    Raises UsageError for an unknown white or a method without GLSL, MissingCapabilityError without OpenGL.
+    """
+    plans = complete_plans(plans, scene)
+    arguments = (model, scene, plans, camera, environment)
+    renderer = Renderer(context)
+    fine = renderer.render(*arguments, size=size, float_textures=True, with_inputs=True)
+    advance()
+    coarse = None
+    if any(effect.value.endswith("-texture") for plan in plans for effect in plan.effects):
+        coarse = renderer.render(*arguments, size=size, float_textures=False, with_inputs=True)
+    advance()
+    shot = Shot(
+        file=model.path.name,
+        materials=(*model.materials, Material()),  # index −1, the default material, is the last
+        plans=plans,
+        lights=scene.lights,
+        camera=camera,
+        white=white,
+        exposure=2.0**exposure,
+        setup={
+            "size": list(size),
+            "camera": camera.name,
+            "environment": environment.name if environment is not None else "none",
+            "exposure": exposure,
+            "tonemap": TONEMAP,
+        },
+        program={"gltf_iri": __version__, "python": platform.python_version(), "numpy": np.__version__},
+        notes=tuple(dict.fromkeys((*model.notes, *scene.notes))),
+    )
+    comparison = judge(fine, shot, coarse=coarse)
+    advance()
+    return comparison

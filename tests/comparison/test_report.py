@@ -1,0 +1,57 @@
+"""The report: valid JSON, and a page that stands alone and trusts no name."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import jsonschema
+import pytest
+
+from gltf_iri.comparison.report import report_html, write_report
+from gltf_iri.resources import spec_root
+
+HOSTILE = """<script>alert(1)</script>" onload='x' {{ 7*7 }} <img src=http://x.example/>"""
+
+
+@pytest.fixture
+def written(judged, tmp_path):
+    comparison = judged(name=HOSTILE)
+    return comparison, write_report(comparison, tmp_path / "new" / "folder")
+
+
+def test_report_is_valid_against_its_schema(written) -> None:
+    _, paths = written
+    schema = json.loads((spec_root() / "report.schema.json").read_text())
+    jsonschema.Draft202012Validator.check_schema(schema)
+    jsonschema.Draft202012Validator(schema).validate(json.loads(paths["report"].read_text()))
+
+
+def test_every_file_is_there_and_nothing_is_left_over(written) -> None:
+    _, paths = written
+    folder = paths["report"].parent
+    assert {path.name for path in folder.iterdir()} == {path.name for path in paths.values()}
+    for name in ("glsl", "python", "truth", "difference_glsl_python", "difference_method_truth"):
+        assert paths[name].read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_hostile_material_name_stays_text(written) -> None:
+    page = written[1]["page"].read_text()
+    assert "<script" not in page
+    assert "&lt;script&gt;alert(1)&lt;/script&gt;" in page
+    assert "{{ 7*7 }}" in page
+
+
+def test_page_loads_nothing_from_anywhere(written) -> None:
+    page = written[1]["page"].read_text()
+    sources = re.findall(r"(?:src|href)=[\"']?([^\"'\s>]{5})", page.replace("&lt;img src=http", ""))
+    assert sources and set(sources) == {"data:"}
+    assert "default-src 'none'" in page
+
+
+def test_a_disagreement_is_said_in_the_first_line(judged) -> None:
+    images = dict.fromkeys(
+        ("glsl", "python", "truth", "difference_glsl_python", "difference_method_truth"), b""
+    )
+    assert "GLSL and Python disagree" in report_html(judged(0.1), images)
+    assert "GLSL and Python agree" in report_html(judged(), images)
