@@ -84,8 +84,8 @@ def base_from_dispersion(index_at: Dispersion) -> Base:
 
 def _checked_index(index: ArrayLike) -> Complex128:
     checked = np.asarray(index, dtype=np.complex128)
-    if not np.all((checked.real >= 0.0) & (checked.imag >= 0.0)):
-        raise UsageError("The base index n + ik wants n ≥ 0 and k ≥ 0 (waves are exp(−iωt)).")
+    if not np.all((checked.real >= 0.0) & (checked.imag >= 0.0) & np.isfinite(checked)):
+        raise UsageError("The base index n + ik wants finite n ≥ 0 and k ≥ 0 (waves are exp(−iωt)).")
     return checked
 
 

@@ -1,0 +1,198 @@
+"""`gltf-iri evaluate`: the reflectance colour of a film over angles."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from gltf_iri.cli.common import json_option, note, print_json, print_table
+
+if TYPE_CHECKING:
+    from gltf_iri.evaluation.film import Base, Evaluation
+    from gltf_iri.material.material import Material
+
+__all__ = ["command"]
+
+# Even in cos θ, from straight on to grazing.
+_DEFAULT_COSINES = tuple(i / 10 for i in range(10, -1, -1))
+
+# What glTF gives a material that says nothing else; repeated in the help text from here.
+_DEFAULT_FILM_IOR = 1.3
+_DEFAULT_THICKNESS_NM = 400.0
+_DEFAULT_BASE_IOR = 1.5
+
+
+class _Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in click's newest stubs only
+    """Numbers separated by commas."""
+
+    name = "numbers"
+
+    def __init__(self, *counts: int) -> None:
+        self._counts = counts
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if isinstance(value, tuple):
+            return value
+        try:
+            numbers = tuple(float(part) for part in str(value).split(","))
+        except ValueError:
+            self.fail(f"'{value}' is not a list of numbers separated by commas", param, ctx)
+        if self._counts and len(numbers) not in self._counts:
+            wanted = " or ".join(map(str, self._counts))
+            self.fail(f"'{value}' has {len(numbers)} numbers, not {wanted}", param, ctx)
+        return numbers
+
+
+@click.command(name="evaluate")
+@click.argument("file", required=False, type=click.Path(exists=True, dir_okay=False, path_type=Path))
+@click.option("--material", metavar="M", help="Material of FILE, by name or number; else its only film.")
+@click.option("--film-ior", type=float, help=f"Refractive index of the film [{_DEFAULT_FILM_IOR}].")
+@click.option("--thickness", type=float, metavar="NM", help=f"In nanometres [{_DEFAULT_THICKNESS_NM:g}].")
+@click.option("--base-f0", type=_Numbers(1, 3), metavar="F|R,G,B", help="Base by its reflectance under air.")
+@click.option("--base-ior", type=float, help=f"Base by its real index [{_DEFAULT_BASE_IOR}].")
+@click.option("--base-nk", type=_Numbers(2), metavar="N,K", help="Base by its complex index N + iK.")
+@click.option("--outside-ior", type=float, help="Refractive index outside the film [1].")
+@click.option("--cos", "cosines", type=_Numbers(), metavar="C,C,…", default=_DEFAULT_COSINES, help="Cosines.")
+@click.option("--method", metavar="NAME", help="khr, khr-guarded or spectral [khr-guarded].")
+@click.option("--white", metavar="D65|E", default="D65", help="White of the colours [D65].")
+@click.option("--layered", is_flag=True, help="Add the specular colour and base weight of FILE's material.")
+@json_option
+def command(
+    file: Path | None,
+    material: str | None,
+    cosines: tuple[float, ...],
+    method: str | None,
+    white: str,
+    layered: bool,
+    as_json: bool,
+    **film: Any,
+) -> None:
+    """Print the film's reflectance colour, linear Rec.709, at the outside angle's cosines.
+
+    Either of a material of FILE, at its largest thickness and without its textures, or of a film given by
+    options. Colours are not cut to the gamut: the truth may be negative in a channel.
+    """
+    if file is None:
+        if material is not None or layered:
+            raise click.UsageError("--material and --layered need a FILE")
+        result = _from_parameters(cosines, method, white, film)
+    else:
+        result = _from_file(file, material, cosines, method, white, layered, film)
+    if as_json:
+        print_json(result)
+        return
+    _print(result)
+
+
+def _from_parameters(
+    cosines: tuple[float, ...], method: str | None, white: str, given: dict[str, Any]
+) -> dict[str, Any]:
+    from gltf_iri.evaluation.film import Film
+    from gltf_iri.evaluation.registry import evaluate
+    from gltf_iri.planning.decide import DEFAULT_METHOD
+
+    film = Film.of(
+        cosines,
+        _or(given["thickness"], _DEFAULT_THICKNESS_NM),
+        _or(given["film_ior"], _DEFAULT_FILM_IOR),
+        _base(given),
+        _or(given["outside_ior"], 1.0),
+    )
+    return _result(cosines, evaluate(method or DEFAULT_METHOD, film, white=white))
+
+
+def _base(given: dict[str, Any]) -> Base:
+    from gltf_iri.evaluation.film import base_from_f0, base_from_ior
+
+    forms = [name for name in ("base_f0", "base_ior", "base_nk") if given[name] is not None]
+    if len(forms) > 1:
+        names = " and ".join("--" + name.replace("_", "-") for name in forms)
+        raise click.UsageError(f"{names} each describe the base: give one of them")
+    if given["base_f0"] is not None:
+        f0 = given["base_f0"]
+        return base_from_f0(f0 if len(f0) == 3 else f0 * 3)
+    if given["base_nk"] is not None:
+        return base_from_ior(complex(*given["base_nk"]))
+    return base_from_ior(_or(given["base_ior"], _DEFAULT_BASE_IOR))
+
+
+def _from_file(
+    file: Path,
+    name: str | None,
+    cosines: tuple[float, ...],
+    method: str | None,
+    white: str,
+    layered: bool,
+    given: dict[str, Any],
+) -> dict[str, Any]:
+    from gltf_iri.evaluation.material_film import evaluate_material
+    from gltf_iri.planning.decide import plan_material
+    from gltf_iri.scene.load import load
+
+    for option, value in given.items():
+        if value is not None and option != "thickness":
+            raise click.UsageError(f"FILE's material decides --{option.replace('_', '-')}; leave it out")
+    materials = load(file).materials
+    index = _chosen(materials, name, file)
+    plan = plan_material(materials[index], index, method=method)
+    done = evaluate_material(materials[index], plan, cosines, thickness_nm=given["thickness"], white=white)
+    result = _result(cosines, done.film)
+    result |= {"material": plan.name, "index": index, "thickness_nm": done.thickness_nm}
+    if layered:
+        result |= {"specular": done.layer.specular, "base_weight": done.layer.base_weight}
+    return result
+
+
+def _chosen(materials: tuple[Material, ...], name: str | None, file: Path) -> int:
+    """Return the index of the material called `name` or numbered so, or of the only one with a film."""
+    from gltf_iri.errors import UsageError
+
+    if name is None:
+        fits = [i for i, material in enumerate(materials) if material.iridescence is not None]
+    else:
+        fits = [i for i, material in enumerate(materials) if material.name == name]
+        if not fits and name.isdecimal() and int(name) < len(materials):
+            fits = [int(name)]
+    if len(fits) == 1:
+        return fits[0]
+    wanted = "with a film" if name is None else f"called '{name}'"
+    has = f"{len(fits)} materials {wanted}" if fits else f"no material {wanted}"
+    listed = ", ".join(f"{i} '{material.name}'" for i, material in enumerate(materials)) or "none"
+    raise UsageError(f"{file} has {has}; choose one with --material from: {listed}.")
+
+
+def _result(cosines: tuple[float, ...], evaluation: Evaluation) -> dict[str, Any]:
+    return {
+        "method": evaluation.method,
+        "white": evaluation.white,
+        "cos": cosines,
+        "rgb": evaluation.rgb,
+        "backend": evaluation.backend,
+        "undefined": {
+            case: [c for c, touched in zip(cosines, mask, strict=True) if touched]
+            for case, mask in evaluation.undefined.items()
+        },
+    }
+
+
+def _print(result: dict[str, Any]) -> None:
+    columns = ["cos θ", "R", "G", "B"]
+    rows = [
+        [f"{c:g}", *(f"{v:.6f}" for v in rgb)] for c, rgb in zip(result["cos"], result["rgb"], strict=True)
+    ]
+    if "specular" in result:
+        columns += ["specular R", "G", "B", "base weight"]
+        for row, specular, weight in zip(rows, result["specular"], result["base_weight"], strict=True):
+            row += [*(f"{v:.6f}" for v in specular), f"{weight:.6f}"]
+    title = f"{result['method']}, {result['white']} white, linear Rec.709"
+    if "material" in result:
+        title += f"; material {result['index']} '{result['material']}', {result['thickness_nm']:g} nm"
+    print_table(columns, rows, title=title)
+    for case, where in result["undefined"].items():
+        note(f"the text leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")
+
+
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
