@@ -1,7 +1,175 @@
-"""Reference implementation of KHR_materials_iridescence: evaluator, renderer and spectral truth for glTF."""
+"""Reference implementation of KHR_materials_iridescence: evaluator, renderer and spectral truth for glTF.
+
+The Python face is four functions. Importing the package imports none of the machinery behind them.
+
+>>> import gltf_iri
+>>> gltf_iri.evaluate("spectral", cos_theta_1=1.0, thickness_nm=0.0, base_ior=1.5).rgb.round(6)
+array([0.04, 0.04, 0.04])
+"""
 
 from __future__ import annotations
 
-__all__ = ["__version__"]
+import typing
+
+if typing.TYPE_CHECKING:
+    from os import PathLike
+
+    from numpy.typing import ArrayLike
+
+    from gltf_iri.evaluation.film import Base, Evaluation
+    from gltf_iri.material.material import Material
+    from gltf_iri.planning.material_plan import MaterialPlan
+    from gltf_iri.rendering.frame import Frame
+    from gltf_iri.scene.load import Model
+    from gltf_iri.scene.model import Camera, Environment, Scene
+
+__all__ = ["__version__", "evaluate", "load", "plan", "render"]
 
 __version__ = "0.1.0"
+
+
+def load(path: str | PathLike[str]) -> Model:
+    """Open a .gltf or .glb file; ``.materials`` holds its materials, ``.scene()`` its geometry.
+
+    Raises UsageError where `path` does not exist, AssetError where the file is broken or requires an
+    extension that is not supported. Geometry and images are read, and may raise, when they are asked for.
+    """
+    from gltf_iri.scene.load import load as open_model
+
+    return open_model(path)
+
+
+def plan(material: Material, *, index: int = -1, method: str | None = None) -> MaterialPlan:
+    """Return what `material` calls for: effects, film method, and the reason for all that is left out.
+
+    index : the material's place in its file.
+    method : name of a film method; None leaves the choice to the plan.
+
+    Raises UsageError where there is no such film method.
+    """
+    from gltf_iri.planning.decide import plan_material
+
+    return plan_material(material, index, method=method)
+
+
+def evaluate(
+    method: str = "khr-guarded",
+    *,
+    cos_theta_1: ArrayLike,
+    thickness_nm: ArrayLike,
+    film_ior: ArrayLike = 1.3,
+    base_f0: ArrayLike | None = None,
+    base_ior: ArrayLike | None = None,
+    base_nk: ArrayLike | None = None,
+    outside_ior: ArrayLike = 1.0,
+    white: str = "D65",
+) -> Evaluation:
+    """Return the reflectance colour of a film over a base, ``.rgb`` of shape (..., 3).
+
+    Linear Rec.709 at factor 1, not gamut-clamped: truth may be negative in a channel. All arrays of shape
+    (...) broadcast together. Equation and source stand with each method in `gltf_iri.evaluation`.
+
+    Parameters
+    ----------
+    method : "khr", "khr-guarded", "spectral" (gltf_iri.planning.method.METHODS lists them).
+    cos_theta_1 : (...) cosine of the angle outside, in [0, 1].
+    thickness_nm : (...) thickness of the film in nanometres, ≥ 0.
+    film_ior, outside_ior : (...) real refractive indices.
+    base_f0 : a number or (..., 3), reflectance of the base at normal incidence under air, in [0, 1].
+    base_ior : (...) real refractive index of the base.
+    base_nk : (..., 2) index and extinction n, k of the base, k ≥ 0.
+    white : "D65" or "E".
+
+    At most one of the three bases; without any, glTF's default index 1.5. Raises UsageError for an unknown
+    method or white, for two bases and for values out of range.
+    """
+    from gltf_iri.evaluation.film import Film
+    from gltf_iri.evaluation.registry import evaluate as evaluate_film
+
+    base = _base(base_f0, base_ior, base_nk)
+    film = Film.of(cos_theta_1, thickness_nm, film_ior, base, outside_ior)
+    return evaluate_film(method, film, white=white)
+
+
+def render(
+    model: Model,
+    *,
+    size: tuple[int, int] = (640, 480),
+    scene: int | None = None,
+    camera: Camera | int | None = None,
+    environment: Environment | str | PathLike[str] | None = "studio",
+    method: str | None = None,
+    samples: int = 4,
+) -> Frame:
+    """Draw one scene of `model` without a window; ``.rgba`` is float32 (height, width, 4), row 0 at the top.
+
+    Linear Rec.709 radiance before exposure and tone mapping.
+
+    Parameters
+    ----------
+    size : width and height in pixels.
+    scene : index of the scene; None for the file's default scene.
+    camera : a camera, the index of one of the scene's, or None to frame the scene.
+    environment : image light and background: "studio", "white", a .hdr or .exr file, or None for neither.
+    method : name of the film method; None leaves the choice to the plan.
+    samples : per pixel.
+
+    Raises AssetError where geometry or images are broken, UsageError for a camera, file, size or method that
+    does not exist or cannot be drawn, MissingCapabilityError where the machine has no OpenGL.
+    """
+    from gltf_iri.planning.decide import plan_materials
+    from gltf_iri.rendering.context import create_context
+    from gltf_iri.rendering.render import Renderer
+
+    shown = model.scene(scene)
+    seen_from = _camera(shown, camera, size)
+    light = _environment(environment)
+    plans = plan_materials(model.materials, method=method)
+    context = create_context()
+    try:
+        return Renderer(context).render(model, shown, plans, seen_from, light, size=size, samples=samples)
+    finally:
+        context.release()
+
+
+def _base(f0: ArrayLike | None, ior: ArrayLike | None, nk: ArrayLike | None) -> Base:
+    import numpy as np
+
+    from gltf_iri.errors import UsageError
+    from gltf_iri.evaluation.film import base_from_f0, base_from_ior
+    from gltf_iri.material.ior import Ior
+
+    if sum(given is not None for given in (f0, ior, nk)) > 1:
+        raise UsageError("There is one base only: give base_f0, base_ior or base_nk.")
+    if f0 is not None:
+        colour = np.asarray(f0, dtype=np.float64)
+        return base_from_f0(np.repeat(colour, 3) if colour.ndim == 0 else colour)
+    if nk is not None:
+        pairs = np.asarray(nk, dtype=np.float64)
+        if pairs.shape[-1:] != (2,):
+            raise UsageError("base_nk wants n and k in its last axis.")
+        return base_from_ior(pairs[..., 0] + 1j * pairs[..., 1])
+    return base_from_ior(Ior().ior if ior is None else ior)
+
+
+def _camera(scene: Scene, camera: Camera | int | None, size: tuple[int, int]) -> Camera:
+    from gltf_iri.errors import UsageError
+    from gltf_iri.scene.camera import frame_scene
+
+    if camera is None:
+        return frame_scene(scene, aspect=size[0] / max(size[1], 1))
+    if not isinstance(camera, int):
+        return camera
+    if not 0 <= camera < len(scene.cameras):
+        raise UsageError(f"There is no camera {camera}; the scene has {len(scene.cameras)}.")
+    return scene.cameras[camera]
+
+
+def _environment(environment: Environment | str | PathLike[str] | None) -> Environment | None:
+    from gltf_iri.scene.environment import read_environment, studio, white
+    from gltf_iri.scene.model import Environment
+
+    if environment is None or isinstance(environment, Environment):
+        return environment
+    built_in = {"studio": studio, "white": white}.get(str(environment))
+    return built_in() if built_in else read_environment(environment)

@@ -1,0 +1,159 @@
+"""The Python face: small, lazy, and what its docstrings promise."""
+
+from __future__ import annotations
+
+import doctest
+import json
+import subprocess
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+import gltf_iri
+from gltf_iri.errors import AssetError, UsageError
+from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
+from gltf_iri.evaluation.registry import evaluate as evaluate_film
+from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.material.material import Material
+from gltf_iri.planning.method import METHODS
+from gltf_iri.scene.environment import white
+
+ROOT = Path(__file__).parents[1]
+FILMS = [method.name for method in METHODS.values() if method.domain == "film"]
+TRIANGLE = {
+    "asset": {"version": "2.0"},
+    "scene": 0,
+    "scenes": [{"nodes": [0]}],
+    "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+    "materials": [{"extensions": {"KHR_materials_iridescence": {"iridescenceFactor": 1.0}}}],
+    "accessors": [
+        {
+            "bufferView": 0,
+            "componentType": 5126,
+            "count": 3,
+            "type": "VEC3",
+            "min": [0, 0, 0],
+            "max": [1, 1, 0],
+        }
+    ],
+    "bufferViews": [{"buffer": 0, "byteLength": 36}],
+    "buffers": [{"byteLength": 36, "uri": "triangle.bin"}],
+}
+
+
+@pytest.fixture
+def model(tmp_path):
+    np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype="<f4").tofile(tmp_path / "triangle.bin")
+    (tmp_path / "triangle.gltf").write_text(json.dumps(TRIANGLE), encoding="utf-8")
+    return gltf_iri.load(tmp_path / "triangle.gltf")
+
+
+def test_all_names_exactly_what_is_exported():
+    public = {
+        name
+        for name, value in vars(gltf_iri).items()
+        if not isinstance(value, ModuleType) and name != "annotations" and not name.startswith("_")
+    }
+    assert public | {"__version__"} == set(gltf_iri.__all__)
+
+
+def test_importing_the_package_imports_nothing_heavy():
+    code = "import sys, gltf_iri; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert not {"numpy", "click", "moderngl", "rich", "PIL"} & set(done.stdout.split())
+
+
+def test_the_examples_in_the_docstring_hold():
+    results = doctest.testmod(gltf_iri)
+    assert results.attempted > 0
+    assert results.failed == 0
+
+
+@pytest.mark.parametrize("method", FILMS)
+def test_evaluate_broadcasts_like_numpy(method):
+    rgb = gltf_iri.evaluate(
+        method,
+        cos_theta_1=np.linspace(0.1, 1.0, 4)[:, None],
+        thickness_nm=[0.0, 300.0],
+        base_f0=[0.9, 0.6, 0.3],
+    ).rgb
+    assert rgb.shape == (4, 2, 3)
+    one = gltf_iri.evaluate(method, cos_theta_1=1.0, thickness_nm=300.0, base_f0=[0.9, 0.6, 0.3]).rgb
+    assert one.shape == (3,)
+    np.testing.assert_allclose(rgb[3, 1], one, rtol=0, atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("given", "base"),
+    [
+        ({}, base_from_ior(1.5)),
+        ({"base_ior": 1.8}, base_from_ior(1.8)),
+        ({"base_f0": 0.5}, base_from_f0([0.5, 0.5, 0.5])),
+        ({"base_nk": [0.2, 3.0]}, base_from_ior(0.2 + 3.0j)),
+    ],
+)
+def test_each_way_to_give_the_base_is_that_base(given, base):
+    expected = evaluate_film("spectral", Film.of(0.5, 400.0, 1.3, base), white="E").rgb
+    seen = gltf_iri.evaluate("spectral", cos_theta_1=0.5, thickness_nm=400.0, white="E", **given).rgb
+    np.testing.assert_array_equal(seen, expected)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"base_f0": 0.5, "base_ior": 1.5},
+        {"base_nk": 1.5},
+        {"base_f0": 1.5},
+        {"cos_theta_1": 1.5},
+        {"thickness_nm": -1.0},
+        {"white": "A"},
+        {"method": "airy"},
+    ],
+)
+def test_a_wrong_call_raises_usage_error(wrong):
+    with pytest.raises(UsageError):
+        gltf_iri.evaluate(**({"method": "khr", "cos_theta_1": 1.0, "thickness_nm": 400.0} | wrong))
+
+
+def test_plan_takes_a_material_and_a_method():
+    film = Material(name="shell", iridescence=Iridescence(factor=1.0))
+    assert gltf_iri.plan(film).method == "khr-guarded"
+    plan = gltf_iri.plan(film, index=3, method="khr")
+    assert (plan.name, plan.index, plan.method) == ("shell", 3, "khr")
+
+
+def test_load_gives_materials_and_refuses_what_is_not_there(model, tmp_path):
+    assert model.materials[0].iridescence == Iridescence(factor=1.0)
+    with pytest.raises(UsageError):
+        gltf_iri.load(tmp_path / "nothing.glb")
+
+
+@pytest.mark.gl
+def test_render_draws_the_scene_and_leaves_the_background(model, gl_context):
+    frame = gltf_iri.render(model, size=(40, 30), environment=white(), method="khr")
+    gl_context.__enter__()  # a context that is released leaves none current
+    assert frame.rgba.shape == (30, 40, 4)
+    assert frame.rgba.dtype == np.float32
+    assert np.isfinite(frame.rgba).all()
+    assert frame.rgba[:, :, :3].max() > 0.0
+    assert frame.renderer
+
+
+@pytest.mark.parametrize("wrong", [{"camera": 0}, {"method": "airy"}, {"environment": "no/such.hdr"}])
+def test_render_refuses_what_does_not_exist_before_it_asks_for_opengl(model, monkeypatch, wrong):
+    def no_opengl():
+        raise AssertionError("OpenGL was asked for")
+
+    monkeypatch.setattr("gltf_iri.rendering.context.create_context", no_opengl)
+    with pytest.raises(UsageError):
+        gltf_iri.render(model, **wrong)
+
+
+def test_render_refuses_geometry_that_is_missing(model, tmp_path):
+    (tmp_path / "triangle.bin").unlink()
+    with pytest.raises(AssetError, match=r"triangle\.bin"):
+        gltf_iri.render(model)
