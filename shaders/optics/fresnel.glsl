@@ -8,16 +8,11 @@
 float f_schlick(float f0, float cos_theta) { return f0 + (1.0 - f0) * pow5(1.0 - cos_theta); }
 vec3 f_schlick(vec3 f0, float cos_theta) { return f0 + (1.0 - f0) * pow5(1.0 - cos_theta); }
 
-// n = (1 + √F0) / (1 − √F0), under air
-// KHR_materials_iridescence, Material Interfaces
-float fresnel0_to_ior(float f0) {
-    float root = sqrt(f0);
-    return (1.0 + root) / (1.0 - root);
-}
-vec3 fresnel0_to_ior(vec3 f0) {
-    vec3 root = sqrt(f0);
-    return (1.0 + root) / (1.0 - root);
-}
+// n = (1 + √F0) / (1 − √F0) = (1 + √F0)² / (1 − F0), under air
+// KHR_materials_iridescence, Material Interfaces; the second form, for 1 − √F0 rounds away what tells bright metals
+// apart, while 1 − F0 is exact above ½.
+float fresnel0_to_ior(float f0) { return sq(1.0 + sqrt(f0)) / (1.0 - f0); }
+vec3 fresnel0_to_ior(vec3 f0) { return sq(1.0 + sqrt(f0)) / (1.0 - f0); }
 
 // F0 = ((n_t − n_i) / (n_t + n_i))²
 // KHR_materials_iridescence, Material Interfaces; x·x where the text has pow(x, 2.0), which GLSL leaves undefined

@@ -41,15 +41,15 @@ def random_films() -> Film:
     g = np.random.default_rng(20170501)
     n = RANDOM_FILMS
     outside = np.where(np.arange(n) % 4 == 0, g.uniform(1.0, 1.7, n), 1.0)
+    f0 = g.uniform(0.0, 1.0, (n, 3))
+    f0[::3] = 1.0 - f0[::3] ** 2  # bright metals, next to the text's pole
     longest_nm = np.where(np.arange(n) % 2 == 0, 1_000.0, 10_000.0)
-    return film_of(
-        outside, g.uniform(1.0, 2.5, n), g.uniform(0.0, 1.0, (n, 3)), longest_nm * g.random(n), g.random(n)
-    )
+    return film_of(outside, g.uniform(1.0, 3.0, n), f0, longest_nm * g.random(n), g.random(n))
 
 
 def edge_films() -> Film:
     """Every combination of the limits, with film indices equal to the bases' among them."""
-    f0 = [0.0, 0.04, 0.5, np.nextafter(np.float32(0.9999), np.float32(0.0)), 0.9999, 1.0]
+    f0 = [0.0, 0.04, 0.5, 0.999, np.nextafter(np.float32(0.9999), np.float32(0.0)), 0.9999, 1.0]
     equal = [float(fresnel0_to_ior(x)) for x in (0.04, 0.0401, 0.5, 0.5001)]
     rows = np.array(
         list(

@@ -43,8 +43,8 @@ STRENGTH = uniform(0.0, 1.0)
 CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultType]] = {
     "f_schlick": ("optics/fresnel.glsl", lambda f0, c: f_schlick(f0, c[:, None]), [COLOUR, COSINE], "vec3"),
     "f_schlick of a scalar": ("optics/fresnel.glsl", f_schlick, [STRENGTH, COSINE], "float"),
-    "fresnel0_to_ior": ("optics/fresnel.glsl", fresnel0_to_ior, [uniform(0.0, 0.95, 3)], "vec3"),
-    "fresnel0_to_ior of a scalar": ("optics/fresnel.glsl", fresnel0_to_ior, [uniform(0.0, 0.95)], "float"),
+    "fresnel0_to_ior": ("optics/fresnel.glsl", fresnel0_to_ior, [uniform(0.0, 0.9999, 3)], "vec3"),
+    "fresnel0_to_ior of a scalar": ("optics/fresnel.glsl", fresnel0_to_ior, [uniform(0.0, 0.9999)], "float"),
     "ior_to_fresnel0": (
         "optics/fresnel.glsl",
         lambda t, i: ior_to_fresnel0(t, i[:, None]),
