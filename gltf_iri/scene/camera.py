@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.errors import AssetError
+from gltf_iri.errors import AssetError, UsageError
 from gltf_iri.scene.framing import box_around, fit_distance, fit_eye
 from gltf_iri.scene.model import Camera, Scene
 
@@ -60,7 +60,7 @@ def projection_matrix(camera: Camera, aspect: float) -> Float64:
     wider than that shows more at the sides, a narrower one more above and below.
     glTF 2.0 §3.10.3.1: finite and infinite perspective, orthographic.
     """
-    near = camera.znear_m
+    near, far = camera.znear_m, camera.zfar_m
     widen = max(camera.aspect / aspect, 1.0) if camera.aspect is not None else 1.0
     matrix = np.zeros((4, 4))
     if camera.kind == "perspective":
@@ -68,15 +68,15 @@ def projection_matrix(camera: Camera, aspect: float) -> Float64:
         matrix[0, 0] = 1.0 / (aspect * slope)
         matrix[1, 1] = 1.0 / slope
         matrix[3, 2] = -1.0
-        if camera.zfar_m is None:
+        if far is None:
             matrix[2, 2], matrix[2, 3] = -1.0, -2.0 * near
         else:
-            far = camera.zfar_m
             matrix[2, 2] = (far + near) / (near - far)
             matrix[2, 3] = 2.0 * far * near / (near - far)
         return matrix
     ymag = camera.ymag_m * widen
-    far = camera.zfar_m if camera.zfar_m is not None else near + 1.0
+    if far is None:
+        raise UsageError("An orthographic camera needs a far plane.")
     matrix[0, 0] = 1.0 / (aspect * ymag)
     matrix[1, 1] = 1.0 / ymag
     matrix[2, 2] = 2.0 / (near - far)

@@ -42,7 +42,8 @@ def read_radiance(data: bytes) -> Float32:
     """Return the picture (height, width, 3), linear, row 0 at the top, with the header's exposure undone.
 
     A pixel is mantissa · 2^(E − 136), black where E = 0: bytes (128, 128, 128, 129) are exactly 1. (Radiance
-    itself adds half a step to each mantissa; most other programs do not, and so white stays white.)
+    itself adds half a step to each mantissa; most other programs do not, and so white stays white.) PRIMARIES
+    are passed over: writers leave zeros there, or Radiance's own, and mean Rec.709.
     Raises AssetError where the bytes are not such a picture, not RGBE, or fewer than the header promises.
     """
     header = _read_header(data)
@@ -57,9 +58,12 @@ def read_radiance(data: bytes) -> Float32:
             rgbe = np.flip(rgbe, axis)
     if header.axes == b"XY":
         rgbe = rgbe.transpose(1, 0, 2)
-    exponent = rgbe[:, :, 3:].astype(np.int32)
-    scale = np.where(exponent > 0, np.ldexp(1.0, exponent - 136), 0.0)
-    linear: Float32 = (rgbe[:, :, :3] * scale / np.array(header.exposure)).astype(np.float32)
+    # float32 holds every mantissa · 2^(E − 136) exactly, so a table of the 256 scales loses nothing.
+    scale: Float32 = np.ldexp(np.float32(1.0), np.arange(256) - 136)
+    scale[0] = 0.0
+    linear: Float32 = scale[rgbe[:, :, 3:]] * rgbe[:, :, :3]
+    with np.errstate(over="ignore"):  # a minute exposure overflows to ∞, which the reader of maps refuses
+        linear /= np.array(header.exposure, dtype=np.float32)
     return linear
 
 

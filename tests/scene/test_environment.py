@@ -120,6 +120,13 @@ def test_a_broken_radiance_picture_is_refused_with_its_name(tmp_path):
     assert caught.value.file == path
 
 
+def test_an_exposure_that_makes_light_infinite_is_refused(tmp_path):
+    path = tmp_path / "sky.hdr"
+    path.write_bytes(b"#?RADIANCE\nEXPOSURE=1e-29\n\n-Y 1 +X 2\n" + bytes((128, 128, 128, 200)) * 2)
+    with pytest.raises(AssetError, match="not finite"):
+        read_environment(path)
+
+
 def test_a_path_that_does_not_exist_or_is_something_else_is_a_wrong_call(tmp_path):
     with pytest.raises(UsageError, match="absent"):
         read_environment(tmp_path / "absent.hdr")
