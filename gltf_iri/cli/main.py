@@ -7,6 +7,7 @@ imported only when that verb is called, and ``--help`` reads `VERBS` alone.
 from __future__ import annotations
 
 import importlib
+import io
 import os
 import sys
 from collections.abc import Mapping, Sequence
@@ -70,6 +71,9 @@ def cli() -> None:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command line and return its exit code; every expected failure becomes one line on stderr."""
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        # A terminal or pipe without λ or é shows an escape instead; a traceback would lose the result.
+        sys.stdout.reconfigure(errors="backslashreplace")
     try:
         # Not cli.main(): that turns a closed pipe into exit code 1, which here means a broken asset.
         with cli.make_context(PROGRAM, list(arguments) or ["--help"]) as context:

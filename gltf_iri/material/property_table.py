@@ -76,7 +76,4 @@ def _range(row: Property) -> str:
         return ", ".join(row.choices)
     if row.low is None and row.high is None:
         return ""
-    low = "(−∞" if row.low is None else f"{'(' if row.low_is_excluded else '['}{row.low:g}"
-    high = "∞)" if row.high is None else f"{row.high:g}]"
-    also = "" if row.also_allowed is None else f" or {row.also_allowed:g}"
-    return f"{low}, {high}{also}"
+    return row.range_text

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import struct
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -121,6 +124,20 @@ def test_what_is_not_drawn_is_named(plan):
     _, out, _ = plan(triangle([{"extensions": extensions}]))
     assert "not drawn  clearcoat: recognised, drawn without the coat" in out
     assert "not drawn  KHR_materials_sheen: not read by this program" in out
+
+
+def test_a_pipe_that_cannot_hold_a_name_gets_an_escape(tmp_path):
+    path = tmp_path / "asset.gltf"
+    path.write_text(json.dumps(triangle([{"name": "λ"}])), encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, "-m", "gltf_iri", "plan", str(path)],
+        cwd=Path(__file__).parents[2],
+        env={**os.environ, "PYTHONIOENCODING": "latin-1"},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert "0 \\u03bb" in done.stdout
 
 
 @pytest.mark.parametrize(
