@@ -1,0 +1,129 @@
+"""Image light: an environment prepared for surfaces of every roughness, and the table that goes with it.
+
+A rough mirror under an environment reflects prefiltered radiance × (F0·A + B), the split sum of Karis 2013,
+"Real Shading in Unreal Engine 4". Every pass divides by what a white environment would give, so that white
+stays exactly 1.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.rendering.environment_levels import environment_levels
+from gltf_iri.rendering.fullscreen import compute_texture
+from gltf_iri.scene.model import Environment
+
+if TYPE_CHECKING:
+    import moderngl
+
+__all__ = ["LAYER_COUNT", "EnvironmentLight", "compute_dfg_table", "prepare_environment"]
+
+Float32 = NDArray[np.float32]
+
+LAYER_COUNT: Final = 8  # perceptual roughness ⅛, ¼ … 1; the map itself stands for 0
+_LAYER_HEIGHT: Final = 128
+_SAMPLES: Final = 256
+# The samples are spread evenly enough for each to average over half of its share: less blur at no more noise.
+_SHARE_AVERAGED: Final = 0.5
+_IRRADIANCE_SIZE: Final = (64, 32)
+_IRRADIANCE_SOURCE_HEIGHT: Final = 32
+_DFG_SIZE: Final = (128, 128)
+
+
+@dataclass(frozen=True, slots=True)
+class EnvironmentLight:
+    """The textures that shaders/lighting/environment.glsl reads, apart from the DFG table."""
+
+    sharp: moderngl.Texture
+    layers: moderngl.Texture
+    irradiance: moderngl.Texture
+
+    def release(self) -> None:
+        """Give the textures back to OpenGL."""
+        for texture in (self.sharp, self.layers, self.irradiance):
+            texture.release()
+
+
+def prepare_environment(context: moderngl.Context, environment: Environment) -> EnvironmentLight:
+    """Prefilter `environment`; the caller releases the result."""
+    levels = environment_levels(environment.radiance)
+    sharp = _upload(context, levels)
+    samples = context.texture((_SAMPLES, LAYER_COUNT), 4, _lobe_samples().tobytes(), dtype="f4")
+    samples.filter = (context.NEAREST, context.NEAREST)
+    layers = compute_texture(
+        context,
+        "pass/prefilter.frag",
+        (2 * _LAYER_HEIGHT, _LAYER_HEIGHT * LAYER_COUNT),
+        4,
+        {"u_layer_height": _LAYER_HEIGHT},
+        {"u_environment": sharp, "u_samples": samples},
+    )
+    samples.release()
+    level = next(i for i, rows in enumerate(levels) if rows.shape[0] <= _IRRADIANCE_SOURCE_HEIGHT)
+    irradiance = compute_texture(
+        context,
+        "pass/irradiance.frag",
+        _IRRADIANCE_SIZE,
+        4,
+        {"u_level": level, "u_size": _IRRADIANCE_SIZE},
+        {"u_environment": sharp},
+    )
+    for texture in (layers, irradiance):
+        _wrap(context, texture)
+    return EnvironmentLight(sharp, layers, irradiance)
+
+
+def compute_dfg_table(context: moderngl.Context) -> moderngl.Texture:
+    """Return the table of (A, B) over √(N·V) and perceptual roughness; the caller releases it."""
+    table = compute_texture(context, "pass/dfg.frag", _DFG_SIZE, 2, {"u_size": _DFG_SIZE}, {})
+    table.repeat_x = table.repeat_y = False
+    table.filter = (context.LINEAR, context.LINEAR)
+    return table
+
+
+def _upload(context: moderngl.Context, levels: list[Float32]) -> moderngl.Texture:
+    height, width = levels[0].shape[:2]
+    texture = context.texture((width, height), 3, np.ascontiguousarray(levels[0]).tobytes(), dtype="f4")
+    texture.build_mipmaps()  # makes room for the levels, whose texels follow
+    for level, texels in enumerate(levels[1:], start=1):
+        texture.write(np.ascontiguousarray(texels).tobytes(), level=level)
+    _wrap(context, texture)
+    texture.filter = (context.LINEAR_MIPMAP_LINEAR, context.LINEAR)
+    return texture
+
+
+def _wrap(context: moderngl.Context, texture: moderngl.Texture) -> None:
+    """Close the map around the horizon and stop it at the poles."""
+    texture.repeat_x, texture.repeat_y = True, False
+    texture.filter = (context.LINEAR, context.LINEAR)
+
+
+def _lobe_samples() -> Float32:
+    """Return (LAYER_COUNT, _SAMPLES, 4): directions of a GGX lobe about +Z seen from +Z, and solid angles.
+
+    Facets follow D·cosθ_h; a facet at θ_h mirrors into 2θ_h with density D/4 (D of glTF 2.0 Appendix B.3), so
+    that each of n samples stands for 4/(n·D) steradians. Directions below the horizon weigh nothing.
+    """
+    height = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
+    turn = 2.0 * np.pi * np.array([_radical_inverse(n) for n in range(_SAMPLES)])
+    alpha = ((np.arange(1, LAYER_COUNT + 1) / LAYER_COUNT) ** 2)[:, None]
+    cos2 = (1.0 - height) / (1.0 + (alpha**2 - 1.0) * height)
+    sin2 = 1.0 - cos2
+    density = alpha**2 / (np.pi * (sin2 + alpha**2 * cos2) ** 2)
+    cos_l, sin_l = 2.0 * cos2 - 1.0, 2.0 * np.sqrt(cos2 * sin2)
+    solid_angle = _SHARE_AVERAGED * 4.0 / (_SAMPLES * density)
+    rays = [sin_l * np.cos(turn), sin_l * np.sin(turn), np.maximum(cos_l, 0.0), solid_angle]
+    return np.stack(rays, axis=-1).astype(np.float32)
+
+
+def _radical_inverse(number: int) -> float:
+    """Return `number`'s binary digits mirrored behind the point: van der Corput's sequence."""
+    result, place = 0.0, 0.5
+    while number:
+        result += place * (number & 1)
+        number, place = number >> 1, place / 2.0
+    return result
