@@ -1,0 +1,17 @@
+// The film's reflectance over one base, by the method that the plan chose.
+
+#include "material/surface.glsl"
+
+#ifdef METHOD_KHR
+#include "optics/khr.glsl"
+#define FILM_FRESNEL iridescent_fresnel_khr
+#endif
+#ifdef METHOD_KHR_GUARDED
+#include "optics/khr_guarded.glsl"
+#define FILM_FRESNEL iridescent_fresnel_khr_guarded
+#endif
+
+// Outside is air: KHR_materials_iridescence ignores a clearcoat's interface.
+vec3 film_fresnel(Surface s, vec3 base_f0, float cos_theta) {
+    return FILM_FRESNEL(1.0, s.film_ior, base_f0, s.film_thickness_nm, cos_theta);
+}

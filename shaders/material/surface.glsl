@@ -1,0 +1,90 @@
+// The material at one point: every property after its textures, as glTF 2.0 §3.9 and the extensions combine them.
+
+#include "common/math.glsl"
+#include "generated/constants.glsl"
+#include "generated/material.glsl"
+
+struct Surface {
+    vec3 base_color;
+    float alpha;
+    vec3 emission;
+    float metallic;
+    float perceptual_roughness;
+    float alpha_roughness;  // α = perceptual roughness²
+    float occlusion;
+    vec3 dielectric_f0;     // before the specular weight
+    float specular_weight;
+#ifdef HAS_IRIDESCENCE
+    float film_strength;
+    float film_ior;
+    float film_thickness_nm;
+#endif
+};
+
+Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
+    Surface s;
+
+    vec4 base = u_base_color_factor * vertex_colour;
+#ifdef HAS_BASE_COLOR_TEXTURE
+    base *= sample_base_color(uv0, uv1);
+#endif
+    s.base_color = clamp(base.rgb, 0.0, 1.0);  // vertex colours above 1 would reflect more than arrives
+    s.alpha = base.a;
+
+    s.emission = vec3(0.0);
+#ifdef HAS_EMISSION
+    s.emission = u_emissive_factor;
+#ifdef HAS_EMISSIVE_TEXTURE
+    s.emission *= sample_emissive(uv0, uv1).rgb;
+#endif
+#endif
+
+    s.metallic = 0.0;
+    s.perceptual_roughness = 1.0;
+#ifndef HAS_UNLIT
+    s.metallic = u_metallic_factor;
+    s.perceptual_roughness = u_roughness_factor;
+#ifdef HAS_METALLIC_ROUGHNESS_TEXTURE
+    vec4 metallic_roughness = sample_metallic_roughness(uv0, uv1);
+    s.metallic *= metallic_roughness.b;
+    s.perceptual_roughness *= metallic_roughness.g;
+#endif
+#endif
+    s.alpha_roughness = max(sq(s.perceptual_roughness), ALPHA_MIN);
+
+    s.occlusion = 1.0;
+#ifdef HAS_OCCLUSION_TEXTURE
+    s.occlusion += u_occlusion_strength * (sample_occlusion(uv0, uv1).r - 1.0);
+#endif
+
+    s.dielectric_f0 = vec3(0.0);
+    s.specular_weight = 1.0;
+#ifdef HAS_DIELECTRIC
+    s.dielectric_f0 = vec3(u_dielectric_f0);
+#ifdef HAS_SPECULAR
+    s.specular_weight = u_specular_factor;
+    s.dielectric_f0 *= u_specular_color_factor;
+#ifdef HAS_SPECULAR_TEXTURE
+    s.specular_weight *= sample_specular(uv0, uv1).a;
+#endif
+#ifdef HAS_SPECULAR_COLOR_TEXTURE
+    s.dielectric_f0 *= sample_specular_color(uv0, uv1).rgb;
+#endif
+    s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0));  // the tint may exceed 1, a reflectance may not
+#endif
+#endif
+
+#ifdef HAS_IRIDESCENCE
+    s.film_strength = u_iridescence_factor;
+#ifdef HAS_IRIDESCENCE_TEXTURE
+    s.film_strength *= sample_iridescence(uv0, uv1).r;
+#endif
+    s.film_ior = u_iridescence_film_ior;
+    s.film_thickness_nm = u_iridescence_thickness_max_nm;
+#ifdef HAS_IRIDESCENCE_THICKNESS_TEXTURE
+    float thickness = sample_iridescence_thickness(uv0, uv1).g;
+    s.film_thickness_nm = mix(u_iridescence_thickness_min_nm, u_iridescence_thickness_max_nm, thickness);
+#endif
+#endif
+    return s;
+}
