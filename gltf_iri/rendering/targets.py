@@ -1,0 +1,83 @@
+"""What is drawn into: a multisampled picture, or the targets that keep a pixel's shading inputs."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.errors import MissingCapabilityError, UsageError
+from gltf_iri.rendering.frame import INPUT_TARGETS, ShadingInputs
+
+if TYPE_CHECKING:
+    import moderngl
+
+__all__ = ["MAX_PIXELS", "Targets", "check_size", "shading_inputs"]
+
+Float32 = NDArray[np.float32]
+
+# 8K: with 4 samples a pixel and its depth, some 3 GB.
+MAX_PIXELS: Final = 7680 * 4320
+
+
+def check_size(context: moderngl.Context, size: tuple[int, int], samples: int) -> None:
+    """Raise UsageError for a size that cannot be drawn, MissingCapabilityError for too many samples."""
+    limit = min(context.info["GL_MAX_RENDERBUFFER_SIZE"], *context.info["GL_MAX_VIEWPORT_DIMS"])
+    width, height = size
+    if not (1 <= width <= limit and 1 <= height <= limit and width * height <= MAX_PIXELS):
+        raise UsageError(
+            f"The size {width} × {height} is out of range: this OpenGL draws 1 to {limit} pixels a side, "
+            f"and this program {MAX_PIXELS} in all."
+        )
+    if samples > context.max_samples:
+        raise MissingCapabilityError(
+            f"This OpenGL takes up to {context.max_samples} samples a pixel, fewer than {samples}."
+        )
+
+
+class Targets:
+    """Framebuffers of float32 RGBA colour and depth; `count` of them, multisampled where samples > 1."""
+
+    def __init__(self, context: moderngl.Context, size: tuple[int, int], *, samples: int, count: int) -> None:
+        self._context = context
+        samples = samples if samples > 1 else 0
+        colours = [context.renderbuffer(size, 4, samples=samples, dtype="f4") for _ in range(count)]
+        self._drawn = context.framebuffer(colours, context.depth_renderbuffer(size, samples=samples))
+        self._resolved: moderngl.Framebuffer | None = None
+        if samples:
+            self._resolved = context.framebuffer([context.renderbuffer(size, 4, dtype="f4")])
+
+    def begin(self, background: tuple[float, float, float]) -> moderngl.Framebuffer:
+        """Return what to draw into, in use and cleared to a colour, coverage 0 and the farthest depth."""
+        self._drawn.use()
+        self._drawn.clear(*background, 0.0, depth=1.0)
+        return self._drawn
+
+    def read(self, target: int = 0) -> Float32:
+        """Return the pixels of a target, (height, width, 4), row 0 at the top."""
+        source = self._drawn
+        if self._resolved is not None:
+            self._context.copy_framebuffer(self._resolved, self._drawn)
+            source = self._resolved
+        data = source.read(components=4, attachment=target, dtype="f4")
+        width, height = source.size
+        return np.frombuffer(data, np.float32).reshape(height, width, 4)[::-1].copy()
+
+    def release(self) -> None:
+        """Give everything back to OpenGL."""
+        for framebuffer in filter(None, (self._drawn, self._resolved)):
+            for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
+                if attachment is not None:
+                    attachment.release()
+            framebuffer.release()
+
+
+def shading_inputs(targets: Targets) -> ShadingInputs:
+    """Read all of `INPUT_TARGETS`."""
+    values: dict[str, NDArray[np.generic]] = {}
+    for index, (colour, scalar) in enumerate(INPUT_TARGETS):
+        pixels = targets.read(index)
+        values[colour], values[scalar] = pixels[..., :3].copy(), pixels[..., 3].copy()
+    values["material"] = np.rint(values["material"]).astype(np.int32) - 1
+    return ShadingInputs(**values)  # type: ignore[arg-type]
