@@ -11,7 +11,7 @@ from gltf_iri.samples.shapes import Shape, solid_of_revolution
 
 __all__ = ["build"]
 
-LENGTH_M, RADIUS_M = 0.16, 0.012
+LENGTH_M, RADIUS_M = 0.16, 0.014
 OXIDE_IOR = 2.16
 THICKNESS_NM = (0.0, 255.0)
 
@@ -41,17 +41,17 @@ def build() -> Sample:
         },
     )
     builder.mesh("rod", _rod(), material)
-    builder.perspective_camera((0.0, 0.06, 0.24), (0.0, 0.0, 0.0), 0.45)
-    builder.directional_light((-0.1, -0.8, -0.6), 2.0)
+    builder.perspective_camera((0.0, 0.075, 0.275), (0.0, 0.0, 0.0), 0.45)
     return Sample(
         name="anodised-ramp",
         title="Anodised ramp",
         shows=("A titanium rod with an oxide film that grows from 0 nm on the left to 255 nm on the right."),
         look_for=(
             "Bare grey titanium on the left, then the sequence that every anodising shop knows: "
-            "straw, bronze, purple, blue, pale blue, yellow, pink, violet, green. Around the rod the "
-            "angle changes and the thickness does not: the bands bend towards thicker oxide at the "
-            "silhouette, only a little, because the oxide's high index keeps the light steep inside.\n\n"
+            "straw, bronze, purple, blue, pale blue, yellow, orange, pink, violet, blue, green. "
+            "Around the rod the angle changes and the thickness does not: the bands bend towards "
+            "thicker oxide at the silhouette, only a little, because the oxide's high index keeps "
+            "the light steep inside.\n\n"
             "The texture has one texel a nanometre, so a place on the rod is a thickness: 1.6 nm a "
             "millimetre."
         ),

@@ -106,8 +106,10 @@ class GLTFBuilder:
         self._use(*extensions)
         return len(self._gltf.materials) - 1
 
-    def mesh(self, name: str, shape: Shape, material: int) -> None:
-        """Add a mesh and the node that holds it."""
+    def mesh(
+        self, name: str, shape: Shape, material: int, rotation: ArrayLike = (0.0, 0.0, 0.0, 1.0)
+    ) -> None:
+        """Add a mesh and the node that holds it, turned by the unit quaternion `rotation` (x, y, z, w)."""
         attributes = self._model.Attributes(
             POSITION=self._vertices(shape.positions, "VEC3", bounded=True),
             NORMAL=self._vertices(shape.normals, "VEC3"),
@@ -117,7 +119,8 @@ class GLTFBuilder:
         indices = self._accessor(shape.triangles.ravel(), "SCALAR", _UNSIGNED_SHORT, _INDICES)
         primitive = self._model.Primitive(attributes=attributes, indices=indices, material=material)
         self._gltf.meshes.append(self._model.Mesh(name=name, primitives=[primitive]))
-        self._place(self._model.Node(name=name, mesh=len(self._gltf.meshes) - 1))
+        mesh = len(self._gltf.meshes) - 1
+        self._place(self._model.Node(name=name, mesh=mesh, rotation=rounded_list(rotation)))
 
     def perspective_camera(self, eye: ArrayLike, target: ArrayLike, yfov_rad: float) -> None:
         """Add a camera at `eye` (m) that looks at `target`."""

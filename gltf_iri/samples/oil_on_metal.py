@@ -41,8 +41,7 @@ def build() -> Sample:
         },
     )
     builder.mesh("plate", sheet(SIDE_M, SIDE_M, 32, _dented), material)
-    builder.perspective_camera((0.0, 0.17, 0.22), (0.0, 0.0, 0.0), 0.7)
-    builder.directional_light((-0.2, -0.7, -0.6), 2.0)
+    builder.perspective_camera((0.0, 0.20, 0.26), (0.0, 0.0, 0.0), 0.7)
     return Sample(
         name="oil-on-metal",
         title="Oil on metal",

@@ -23,9 +23,9 @@ def build() -> Sample:
     thickness = builder.texture("thickness", encode_png(to_bytes(_growth())))
     material = builder.material(
         "nacre",
-        base_color=(0.80, 0.74, 0.68),
+        base_color=(0.72, 0.66, 0.60),
         metallic=0.0,
-        roughness=0.25,
+        roughness=0.3,
         extensions={
             "KHR_materials_ior": {"ior": CONCHIOLIN_IOR},
             "KHR_materials_iridescence": {
@@ -39,7 +39,7 @@ def build() -> Sample:
     )
     builder.mesh("pearl", sphere(RADIUS_M, rings=36, segments=72), material)
     builder.perspective_camera((0.0, 0.004, 0.025), (0.0, 0.0, 0.0), 0.5)
-    builder.directional_light((-0.5, -0.7, -0.6), 2.0)
+    builder.directional_light((-0.5, -0.7, -0.6), 1.0)
     return Sample(
         name="pearl",
         title="Pearl",

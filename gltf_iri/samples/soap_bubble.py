@@ -41,7 +41,6 @@ def build() -> Sample:
     )
     builder.mesh("bubble", sphere(RADIUS_M, rings=36, segments=72), material)
     builder.perspective_camera((0.0, 0.03, 0.25), (0.0, 0.0, 0.0), 0.5)
-    builder.directional_light((-0.4, -0.8, -0.6), 2.0)
     return Sample(
         name="soap-bubble",
         title="Soap bubble",

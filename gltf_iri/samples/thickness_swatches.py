@@ -60,9 +60,8 @@ def build() -> Sample:
         look_for=(
             "Read it like a page: 0 nm top left, 16 nm to its right, 128 nm at the start of the "
             "second row, 1008 nm bottom right. It is the colour chart by which oxide on a wafer is "
-            "judged by eye: tan, brown, violet, blue, pale metal, yellow, orange, red-violet, and "
-            "the cycle again, paler each time. The first swatch has no film and must look like bare "
-            "silicon.\n\n"
+            "judged by eye: brown, violet, blue, pale, gold, red-violet, blue, green, and round again, "
+            "paler each time. The first swatch has no film and must look like bare silicon.\n\n"
             "Each swatch has one texture coordinate, the centre of its own texel, and the texture is "
             "not filtered: 4 counts of 8 bits a swatch, 4 nm a count, so every thickness is exact. "
             "The camera's rays are parallel, so the angle is 0 everywhere; draw it with `--env "
