@@ -20,10 +20,14 @@ Mask = NDArray[np.bool_]
 TONEMAP: Final = "neutral"
 
 # Readable on white and on near-black alike, for the maps are transparent around their pixels.
-_INK = "#7d8590"
+_INK: Final = "#7d8590"
+_GROUND: Final = (0.5, 0.5, 0.5, 0.3)
+
+# A few silhouette pixels must not darken the rest of the map.
+_SHOWN_PERCENT: Final = 99.5
 
 # float32 cannot agree better than this; the colour scale starts here.
-_DEVIATION_FLOOR = 1e-8
+_DEVIATION_FLOOR: Final = 1e-8
 
 
 def picture(linear: Float64, drawn: Mask, exposure: float) -> bytes:
@@ -50,14 +54,17 @@ def deviation_map(deviation: Float64, drawn: Mask) -> bytes:
 
 
 def delta_e_map(delta_e: Float64, drawn: Mask) -> bytes:
-    """Draw ΔE2000 on a linear scale from 0 to its maximum, at least 1 (what an eye just tells apart)."""
+    """Draw ΔE2000 on a linear scale that few pixels exceed, up to 1 at least: what an eye just tells apart."""
     from matplotlib.colors import Normalize
 
-    top = max(1.0, float(np.max(delta_e, initial=0.0)))
-    return _map(delta_e, drawn, Normalize(0.0, top), "ΔE2000", "inferno")
+    shown = delta_e[drawn] if drawn.any() else np.zeros(1)
+    top = max(1.0, float(np.percentile(shown, _SHOWN_PERCENT)))
+    label = f"ΔE2000, at most {shown.max():.3g}"
+    return _map(delta_e, drawn, Normalize(0.0, top), label, "inferno")
 
 
 def _map(values: Float64, drawn: Mask, norm: Any, label: str, colours: str) -> bytes:
+    from matplotlib import colormaps
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
 
@@ -70,7 +77,11 @@ def _map(values: Float64, drawn: Mask, norm: Any, label: str, colours: str) -> b
     axes = figure.add_axes((0.0, share, 1.0, 1.0 - share))
     axes.set_axis_off()
     image = axes.imshow(
-        np.ma.masked_array(values, ~drawn), norm=norm, cmap=colours, interpolation="nearest", aspect="auto"
+        np.ma.masked_array(values, ~drawn),
+        norm=norm,
+        cmap=colormaps[colours].with_extremes(bad=_GROUND),
+        interpolation="nearest",
+        aspect="auto",
     )
     bar = figure.colorbar(
         image, cax=figure.add_axes((0.06, share * 0.72, 0.88, share * 0.14)), orientation="horizontal"
