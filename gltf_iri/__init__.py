@@ -3,8 +3,8 @@
 The Python face is four functions. Importing the package imports none of the machinery behind them.
 
 >>> import gltf_iri
->>> gltf_iri.evaluate("spectral", cos_theta_1=1.0, thickness_nm=0.0, base_ior=1.5).rgb.round(6)
-array([0.04, 0.04, 0.04])
+>>> gltf_iri.evaluate("spectral", cos_theta_1=1.0, thickness_nm=0.0, base_ior=1.5).rgb.round(6).tolist()
+[0.04, 0.04, 0.04]
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if typing.TYPE_CHECKING:
     from gltf_iri.planning.material_plan import MaterialPlan
     from gltf_iri.rendering.frame import Frame
     from gltf_iri.scene.load import Model
-    from gltf_iri.scene.model import Camera, Environment, Scene
+    from gltf_iri.scene.model import Camera, Environment
 
 __all__ = ["__version__", "evaluate", "load", "plan", "render"]
 
@@ -109,7 +109,7 @@ def render(
     ----------
     size : width and height in pixels.
     scene : index of the scene; None for the file's default scene.
-    camera : a camera, the index of one of the scene's, or None to frame the scene.
+    camera : a camera, an index of the scene's, or None for its first or, without any, to frame it.
     environment : image light and background: "studio", "white", a .hdr or .exr file, or None for neither.
     method : name of the film method; None leaves the choice to the plan.
     samples : per pixel.
@@ -120,10 +120,12 @@ def render(
     from gltf_iri.planning.decide import plan_materials
     from gltf_iri.rendering.context import create_context
     from gltf_iri.rendering.render import Renderer
+    from gltf_iri.scene.choose import choose_camera, choose_environment
+    from gltf_iri.scene.model import Camera
 
     shown = model.scene(scene)
-    seen_from = _camera(shown, camera, size)
-    light = _environment(environment)
+    seen_from = camera if isinstance(camera, Camera) else choose_camera(shown, camera, size)
+    light = choose_environment(environment) if isinstance(environment, str | PathLike) else environment
     plans = plan_materials(model.materials, method=method)
     context = create_context()
     try:
@@ -150,26 +152,3 @@ def _base(f0: ArrayLike | None, ior: ArrayLike | None, nk: ArrayLike | None) -> 
             raise UsageError("base_nk wants n and k in its last axis.")
         return base_from_ior(pairs[..., 0] + 1j * pairs[..., 1])
     return base_from_ior(Ior().ior if ior is None else ior)
-
-
-def _camera(scene: Scene, camera: Camera | int | None, size: tuple[int, int]) -> Camera:
-    from gltf_iri.errors import UsageError
-    from gltf_iri.scene.camera import frame_scene
-
-    if camera is None:
-        return frame_scene(scene, aspect=size[0] / max(size[1], 1))
-    if not isinstance(camera, int):
-        return camera
-    if not 0 <= camera < len(scene.cameras):
-        raise UsageError(f"There is no camera {camera}; the scene has {len(scene.cameras)}.")
-    return scene.cameras[camera]
-
-
-def _environment(environment: Environment | str | PathLike[str] | None) -> Environment | None:
-    from gltf_iri.scene.environment import read_environment, studio, white
-    from gltf_iri.scene.model import Environment
-
-    if environment is None or isinstance(environment, Environment):
-        return environment
-    built_in = {"studio": studio, "white": white}.get(str(environment))
-    return built_in() if built_in else read_environment(environment)

@@ -10,13 +10,10 @@ from gltf_iri.rendering.source import compile_program
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["STUDIO_BACKDROP", "Background"]
+__all__ = ["BLUR", "Background"]
 
 # As a mirror's perceptual roughness: the surroundings' shapes stay, edges that compete with the model go.
 BLUR: Final = 0.35
-
-# Behind a model in the studio: a grey card, for the lamps are brighter than most of what they light.
-STUDIO_BACKDROP: Final = (0.18, 0.18, 0.18)
 
 
 class Background:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gltf_iri.errors import UsageError
-from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import METHODS, find_method
 from gltf_iri.rendering.source import ShaderSource, assemble, build_program
 
@@ -20,11 +19,11 @@ def surface_sources(defines: tuple[str, ...]) -> tuple[ShaderSource, ShaderSourc
     return assemble("pass/surface.vert", defines), assemble("pass/surface.frag", defines)
 
 
-def check_method(plan: MaterialPlan) -> None:
-    """Raise UsageError where the plan's film method has no GLSL twin."""
-    if plan.method is not None and find_method(plan.method).glsl_function is None:
+def check_method(name: str | None) -> None:
+    """Raise UsageError where the film method `name` has no GLSL twin; None stands for no film."""
+    if name is not None and find_method(name).glsl_function is None:
         drawable = ", ".join(name for name, method in METHODS.items() if method.glsl_function)
-        raise UsageError(f"The method '{plan.method}' cannot be drawn; methods with GLSL are: {drawable}.")
+        raise UsageError(f"The method '{name}' cannot be drawn; methods that can are: {drawable}.")
 
 
 class ProgramStore:

@@ -66,7 +66,6 @@ class Renderer:
         environment: Environment | None,
         *,
         size: tuple[int, int],
-        background: tuple[float, float, float] | None = None,
         samples: int = 4,
         float_textures: bool = False,
         with_inputs: bool = False,
@@ -76,8 +75,7 @@ class Renderer:
         Parameters
         ----------
         plans : one for each material; the default material's is added where it is missing (`complete_plans`).
-        environment : image light; None for none.
-        background : colour behind the scene; None for the environment itself, out of focus.
+        environment : image light and what is behind the scene; None for neither.
         size : width and height in pixels.
         samples : samples a pixel; 0 or 1 for its centre alone.
         float_textures : textures as linear float32 (see `TextureStore`).
@@ -92,41 +90,43 @@ class Renderer:
         check_size(self.context, size, samples)
         plans = complete_plans(plans, scene)
         for plan in plans:
-            check_method(plan)
+            check_method(plan.method)
         surroundings = plan_scene_effects(scene, environment)
         geometry = GeometryStore(self.context)
         textures = TextureStore(self.context, model.document, float_textures=float_textures)
         targets = Targets(self.context, size, samples=samples, count=len(INPUT_TARGETS) if with_inputs else 1)
         lights = lights_texture(self.context, scene.lights)
+        light = {"u_lights": lights}
         try:
-            light = {"u_lights": lights}
-            if environment is not None and Effect.IMAGE_LIGHT in surroundings:
+            if environment is not None:
                 light |= self._image_lights.textures(environment)
             shared = view_uniforms(camera, size)
             shared |= {"u_light_count": len(scene.lights), "u_layer_count": LAYER_COUNT}
-            switches = (SHADING_INPUTS,) if with_inputs else ()
             draws = []
             for primitive in scene.primitives:
                 number, plan, material = _material_of(primitive, plans, model)
-                defines = permutation(plan, primitive_effects(primitive), surroundings) + switches
+                defines = permutation(plan, primitive_effects(primitive), surroundings)
+                if with_inputs:
+                    defines = (*defines, SHADING_INPUTS)
                 program = self._programs.get(defines)
-                uniforms = placement_uniforms(primitive) | material_uniforms(material, defines)
-                samplers = {n: textures.get(b) for n, b in material_textures(material, defines).items()}
+                placed = placement_uniforms(primitive) | {"u_material": number}
+                sampled = {n: textures.get(b) for n, b in material_textures(material, defines).items()}
                 draws.append(
                     Draw(
                         primitive,
                         plan,
                         program,
                         geometry.vertex_array(primitive, program),
-                        shared | uniforms | {"u_material": number},
-                        light | samplers,
+                        shared | placed | material_uniforms(material, defines),
+                        light | sampled,
                     )
                 )
             self.context.finish()
             started = time.perf_counter()
-            framebuffer = targets.begin((0.0, 0.0, 0.0) if background is None or with_inputs else background)
-            if background is None and Effect.IMAGE_LIGHT in surroundings and not with_inputs:
-                self._draw_background(shared | background_uniforms(camera, size), light)
+            framebuffer = targets.begin()
+            if environment is not None and not with_inputs:
+                shared |= background_uniforms(camera, size)
+                self._draw_background(framebuffer, environment, shared, light)
             draw_primitives(framebuffer, draws, camera, is_blending=not with_inputs)
             self.context.finish()
             milliseconds = (time.perf_counter() - started) * 1000.0
@@ -150,7 +150,16 @@ class Renderer:
         if self._background is not None:
             self._background.release()
 
-    def _draw_background(self, uniforms: dict[str, Any], textures: dict[str, moderngl.Texture]) -> None:
+    def _draw_background(
+        self,
+        framebuffer: moderngl.Framebuffer,
+        environment: Environment,
+        uniforms: dict[str, Any],
+        textures: dict[str, moderngl.Texture],
+    ) -> None:
+        if environment.backdrop is not None:
+            framebuffer.clear(*environment.backdrop, 0.0, depth=1.0)
+            return
         if self._background is None:
             self._background = Background(self.context)
         self._background.draw(uniforms, textures)

@@ -48,10 +48,10 @@ class Targets:
         if samples:
             self._resolved = context.framebuffer([context.renderbuffer(size, 4, dtype="f4")])
 
-    def begin(self, background: tuple[float, float, float]) -> moderngl.Framebuffer:
-        """Return what to draw into, in use and cleared to a colour, coverage 0 and the farthest depth."""
+    def begin(self) -> moderngl.Framebuffer:
+        """Return what to draw into, in use and cleared: colour 0, coverage 0, farthest depth."""
         self._drawn.use()
-        self._drawn.clear(*background, 0.0, depth=1.0)
+        self._drawn.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
         return self._drawn
 
     def read(self, target: int = 0) -> Float32:

@@ -18,6 +18,9 @@ from gltf_iri.scene.studio import studio_radiance
 
 __all__ = ["read_environment", "studio", "white"]
 
+# Behind a model in the studio: a grey card, for the lamps are brighter than most of what they light.
+_STUDIO_BACKDROP = (0.18, 0.18, 0.18)
+
 Float32 = NDArray[np.float32]
 
 _OPENEXR_MAGIC = b"\x76\x2f\x31\x01"
@@ -51,7 +54,7 @@ def white() -> Environment:
 
 def studio() -> Environment:
     """Return a photographer's studio: key, fill, rim and overhead soft boxes, 256 × 512, mean radiance 1."""
-    return Environment("studio", studio_radiance())
+    return Environment("studio", studio_radiance(), backdrop=_STUDIO_BACKDROP)
 
 
 def _checked(place: Path, radiance: Float32) -> Environment:

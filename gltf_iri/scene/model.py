@@ -91,6 +91,7 @@ class Environment:
     name: str
     radiance: Float32  # (height, width, 3), linear Rec.709, finite and not negative
     notes: tuple[str, ...] = ()  # what was changed while reading, in sentences for the report
+    backdrop: tuple[float, float, float] | None = None  # behind the scene; None: the map, out of focus
 
 
 @dataclass(frozen=True, slots=True)
