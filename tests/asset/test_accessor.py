@@ -16,6 +16,7 @@ from gltf_iri.asset import accessor as accessor_module
 from gltf_iri.asset.accessor import BufferView, read_accessor
 from gltf_iri.asset.document import Document
 from gltf_iri.asset.guard import Budget
+from gltf_iri.asset.limits import MAX_BUFFERLESS_COUNT
 from gltf_iri.errors import AssetError
 
 OpenAccessor = Callable[..., Document]
@@ -230,6 +231,21 @@ def test_absurd_counts_cost_nothing(count: int, base: dict[str, int], open_acces
     with pytest.raises(AssetError):
         document.accessor(0)
     assert time.process_time() - start < 0.5
+
+
+def test_zeros_are_bounded_by_count(open_accessor: OpenAccessor) -> None:
+    description = {"componentType": 5121, "type": "SCALAR", "count": MAX_BUFFERLESS_COUNT + 1}
+    with pytest.raises(AssetError) as caught:
+        open_accessor(description, b"....").accessor(0)
+    assert caught.value.pointer == "/accessors/0/count"
+
+
+def test_sparse_parts_are_tightly_packed() -> None:
+    def views(index: int, asker: str) -> BufferView:
+        return BufferView(memoryview(b"\0" * 40), 4 if index == 1 else None)
+
+    with pytest.raises(AssetError, match="byteStride"):
+        read_accessor(sparse(1), "/accessors/0", views, Budget())
 
 
 def test_many_accessors_over_the_same_bytes_are_bounded_by_their_sum(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -90,6 +90,12 @@ def test_everything_else_is_refused_with_its_pointer(folder: Path, uri: str) -> 
     assert len(str(caught.value)) < 250
 
 
+def test_a_backslash_is_refused_even_where_a_file_has_one_in_its_name(folder: Path) -> None:
+    (folder / "sub\\deep.bin").write_bytes(b"odd")  # on other systems the same URI names another file
+    with pytest.raises(AssetError, match="write '/' between folders"):
+        read_inside(folder, "sub\\deep.bin", WHERE, 100)
+
+
 def test_symbolic_links_may_stay_inside_but_not_lead_out(folder: Path) -> None:
     (folder / "alias").symlink_to(folder / "plain.bin")
     (folder / "out").symlink_to(folder.parent / "secret")
