@@ -20,7 +20,7 @@ demo: $(VENV)/.runtime $(VENV)/.opengl ## draw a sample and its comparison page 
 	$(BIN)/gltf-iri compare $(OUT)/samples/anodised-ramp/anodised-ramp.gltf -o $(OUT)/compare
 	@echo "Look at $(OUT)/anodised-ramp.png and open $(OUT)/compare/index.html in a browser."
 
-test: check $(VENV)/.opengl ## check, then run every test
+test: check $(VENV)/.opengl $(VENV)/.glslang ## check, then run every test
 	$(BIN)/python -m pytest -n $(WORKERS)
 
 check: $(VENV)/.development ## formatting, lint, types, and that no generated file is stale
@@ -68,4 +68,9 @@ opengl = $(BIN)/python -c 'from gltf_iri.rendering.context import create_context
 
 $(VENV)/.opengl: | $(VENV)/.runtime
 	@$(opengl) 2>/dev/null || { $(call install,libegl1 libgl1,OpenGL is missing) && $(opengl); }
+	@touch $@
+
+# Only tests want it: where it cannot be installed, those are skipped and say so.
+$(VENV)/.glslang: | $(BIN)/python
+	@command -v glslangValidator >/dev/null || ( $(call install,glslang-tools,glslangValidator is missing) ) || true
 	@touch $@
