@@ -117,6 +117,8 @@ def render(
     Raises AssetError where geometry or images are broken, UsageError for a camera, file, size or method that
     does not exist or cannot be drawn, MissingCapabilityError where the machine has no OpenGL.
     """
+    import os
+
     from gltf_iri.planning.decide import plan_materials
     from gltf_iri.rendering.context import create_context
     from gltf_iri.rendering.render import Renderer
@@ -125,7 +127,7 @@ def render(
 
     shown = model.scene(scene)
     seen_from = camera if isinstance(camera, Camera) else choose_camera(shown, camera, size)
-    light = choose_environment(environment) if isinstance(environment, str | PathLike) else environment
+    light = choose_environment(environment) if isinstance(environment, str | os.PathLike) else environment
     plans = plan_materials(model.materials, method=method)
     context = create_context()
     try:
