@@ -5,6 +5,7 @@
 #include "material/surface.glsl"
 #ifdef HAS_IRIDESCENCE
 #include "lighting/film.glsl"
+#include "material/film_layering.glsl"
 #endif
 
 // How a lobe turns F0 into a reflectance: plain = F0·slope + offset, film = F(cosθ)·(slope + offset).

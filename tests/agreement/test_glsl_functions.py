@@ -83,13 +83,13 @@ CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultTyp
         "float",
     ),
     "conductor_fresnel": (
-        "material/layering.glsl",
+        "material/film_layering.glsl",
         layering.conductor_fresnel,
         [COLOUR, uniform(-1.0, 1.0)],
         "vec3",
     ),
     "iridescent_conductor_layer": (
-        "material/layering.glsl",
+        "material/film_layering.glsl",
         layering.iridescent_conductor_layer,
         [STRENGTH, COLOUR, OTHER_COLOUR],
         "vec3",
@@ -123,8 +123,8 @@ def test_glsl_function_equals_its_python_twin(name: str, probe: Probe) -> None:
 def test_glsl_layer_equals_its_python_twin(name: str, probe: Probe) -> None:
     twin, arguments = LAYERS[name]
     python = twin(*arguments)
-    specular = probe.call(name, "material/layering.glsl", arguments, "vec3", member="specular")
-    base_weight = probe.call(name, "material/layering.glsl", arguments, "float", member="base_weight")
+    specular = probe.call(name, "material/film_layering.glsl", arguments, "vec3", member="specular")
+    base_weight = probe.call(name, "material/film_layering.glsl", arguments, "float", member="base_weight")
     assert relative_error(specular, python.specular).max() <= GLSL_OPTICS_MAX_ABS
     assert relative_error(base_weight, python.base_weight).max() <= GLSL_OPTICS_MAX_ABS
 

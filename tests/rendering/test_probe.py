@@ -12,7 +12,7 @@ from gltf_iri.rendering.context import renderer_name
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.rendering.source import ShaderError
 
-LAYERING = "material/layering.glsl"
+LAYERING = "material/film_layering.glsl"
 
 
 @pytest.fixture
