@@ -21,6 +21,7 @@ TONEMAP: Final = "neutral"
 
 # Readable on white and on near-black alike, for the maps are transparent around their pixels.
 _INK: Final = "#7d8590"
+_BAR_IN: Final = 0.9  # height below the map that its colour bar takes
 _GROUND: Final = (0.5, 0.5, 0.5, 0.3)
 
 # A few silhouette pixels must not darken the rest of the map.
@@ -54,7 +55,7 @@ def deviation_map(deviation: Float64, drawn: Mask) -> bytes:
 
 
 def delta_e_map(delta_e: Float64, drawn: Mask) -> bytes:
-    """Draw ΔE2000 on a linear scale that few pixels exceed, up to 1 at least: what an eye just tells apart."""
+    """Draw ΔE2000 on a linear scale that few pixels exceed and that reaches 1, what an eye just sees."""
     from matplotlib.colors import Normalize
 
     shown = delta_e[drawn] if drawn.any() else np.zeros(1)
@@ -70,10 +71,10 @@ def _map(values: Float64, drawn: Mask, norm: Any, label: str, colours: str) -> b
 
     height, width = values.shape
     picture_in = 5.0
-    figure = Figure(figsize=(picture_in, picture_in * height / width + 0.75), dpi=128)
+    figure = Figure(figsize=(picture_in, picture_in * height / width + _BAR_IN), dpi=128)
     FigureCanvasAgg(figure)
     figure.patch.set_alpha(0.0)
-    share = 0.75 / (picture_in * height / width + 0.75)
+    share = _BAR_IN / (picture_in * height / width + _BAR_IN)
     axes = figure.add_axes((0.0, share, 1.0, 1.0 - share))
     axes.set_axis_off()
     image = axes.imshow(
@@ -84,11 +85,11 @@ def _map(values: Float64, drawn: Mask, norm: Any, label: str, colours: str) -> b
         aspect="auto",
     )
     bar = figure.colorbar(
-        image, cax=figure.add_axes((0.06, share * 0.72, 0.88, share * 0.14)), orientation="horizontal"
+        image, cax=figure.add_axes((0.06, share * 0.76, 0.88, share * 0.12)), orientation="horizontal"
     )
     bar.outline.set_visible(False)
-    bar.ax.tick_params(colors=_INK, labelsize=8)
-    bar.set_label(label, color=_INK, fontsize=9)
+    bar.ax.tick_params(colors=_INK, labelsize=12)
+    bar.set_label(label, color=_INK, fontsize=13)
     stream = io.BytesIO()
     figure.savefig(stream, format="png")
     return stream.getvalue()

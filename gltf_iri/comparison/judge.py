@@ -90,7 +90,7 @@ def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Compariso
         tuple(results),
         whole,
         pictures,
-        (*shot.notes, *frame.notes),
+        tuple(dict.fromkeys((*shot.notes, *frame.notes))),
     )
 
 

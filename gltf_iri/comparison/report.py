@@ -64,7 +64,16 @@ def report_html(comparison: Comparison, images: dict[str, bytes]) -> str:
     )
     templates.filters["figure"] = _figure
     uris = {name: "data:image/png;base64," + base64.b64encode(data).decode() for name, data in images.items()}
-    return templates.get_template("report.html.j2").render(report=comparison.to_json(), images=uris)
+    return templates.get_template("report.html.j2").render(
+        report=comparison.to_json(),
+        images=uris,
+        whites={m.plan.method: m.method_white for m in comparison.materials if m.method_white is not None},
+        # What the file does not even mention stays in the JSON; people want what was decided against.
+        left_out=[
+            {effect.value: reason for effect, reason in m.plan.skipped.items() if effect not in m.plan.absent}
+            for m in comparison.materials
+        ],
+    )
 
 
 def _figure(value: float | None) -> str:

@@ -53,13 +53,15 @@ def compare(
     """
     plans = complete_plans(plans, scene)
     arguments = (model, scene, plans, camera, environment)
+    has_textures = any(effect.value.endswith("-texture") for plan in plans for effect in plan.effects)
     renderer = Renderer(context)
-    fine = renderer.render(*arguments, size=size, float_textures=True, with_inputs=True)
-    advance()
-    coarse = None
-    if any(effect.value.endswith("-texture") for plan in plans for effect in plan.effects):
-        coarse = renderer.render(*arguments, size=size, float_textures=False, with_inputs=True)
-    advance()
+    try:
+        fine = renderer.render(*arguments, size=size, float_textures=True, with_inputs=True)
+        advance()
+        coarse = renderer.render(*arguments, size=size, with_inputs=True) if has_textures else None
+        advance()
+    finally:
+        renderer.release()
     shot = Shot(
         file=model.path.name,
         materials=(*model.materials, Material()),  # index −1, the default material, is the last
@@ -76,7 +78,7 @@ def compare(
             "tonemap": TONEMAP,
         },
         program={"gltf_iri": __version__, "python": platform.python_version(), "numpy": np.__version__},
-        notes=tuple(dict.fromkeys((*model.notes, *scene.notes))),
+        notes=(*model.notes, *scene.notes, *(environment.notes if environment is not None else ())),
     )
     comparison = judge(fine, shot, coarse=coarse)
     advance()
