@@ -34,6 +34,7 @@ _PANEL_TOLERANCE: Final = COLOUR_CONVERGENCE / 2048.0
 
 _PANELS_AT_ONCE: Final = 1 << 13  # bounds the temporaries of one evaluation
 _OPEN_PANELS: Final = 1 << 17  # rows are taken in groups that start with about as many panels
+_MOST_PANELS: Final = 1 << 20  # noise leaves every half open; a spectrum with features leaves ever fewer
 _MAX_HALVINGS: Final = 40  # a panel of 1e-12 nm: narrower than any feature that float64 can place
 
 
@@ -68,6 +69,8 @@ def _integrate_group(reflectance: Reflectance, rows: Rows, edges_nm: Float64, wh
         np.add.at(rgb, position[~is_open], fine[~is_open])
         if not is_open.any():
             return rgb
+        if 2 * np.count_nonzero(is_open) > _MOST_PANELS:
+            break
         position = np.tile(position[is_open], 2)
         low, high = (
             np.concatenate([low[is_open], middle[is_open]]),
@@ -98,7 +101,12 @@ def _first_edges(opd_nm: float) -> Float64:
     """Return the observer's 1 nm steps, cut evenly where the fringes run faster than a panel may."""
     knots = observer_table()[:, 0]
     phase_rad = 2.0 * np.pi * opd_nm * (1.0 / knots[:-1] - 1.0 / knots[1:])
-    cuts = np.maximum(1, np.ceil(phase_rad / _PHASE_PER_PANEL_RAD)).astype(np.intp)
+    wanted = np.maximum(1.0, np.ceil(phase_rad / _PHASE_PER_PANEL_RAD))
+    if wanted.sum() > _MOST_PANELS:
+        raise UsageError(
+            f"A path difference of {opd_nm:.3g} nm has more fringes than can be summed: make the film thinner."
+        )
+    cuts = wanted.astype(np.intp)
     steps = [
         np.linspace(a, b, n, endpoint=False) for a, b, n in zip(knots[:-1], knots[1:], cuts, strict=True)
     ]

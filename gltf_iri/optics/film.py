@@ -90,15 +90,16 @@ def tangent_over_q(q2_squared: ArrayLike, path_per_wavelength: ArrayLike) -> Flo
     q2_squared : (...); path_per_wavelength : d/λ, (...).
     """
     squared = np.asarray(q2_squared, dtype=np.float64)
-    k_d = 2.0 * np.pi * np.asarray(path_per_wavelength, dtype=np.float64)
+    path = 2.0 * np.asarray(path_per_wavelength, dtype=np.float64)
     q2 = np.sqrt(np.abs(squared))
-    beta = k_d * q2
-    turned = np.tan(beta)
+    half_turns = path * q2  # β/π
+    # Whole half turns change nothing; taken off before π is multiplied in, they cost no digits.
+    turned = np.tan(np.pi * (half_turns - np.rint(half_turns)))
     if np.any(squared < 0.0):
-        turned = np.where(squared < 0.0, np.tanh(beta), turned)
+        turned = np.where(squared < 0.0, np.tanh(np.pi * half_turns), turned)
     is_flat = q2 == 0.0
     if np.any(is_flat):  # tan β/q₂ → 2πd/λ for light that just grazes inside the film
-        return np.asarray(np.where(is_flat, k_d, turned / np.where(is_flat, 1.0, q2)))
+        return np.asarray(np.where(is_flat, np.pi * path, turned / np.where(is_flat, 1.0, q2)))
     return np.asarray(turned / q2)
 
 

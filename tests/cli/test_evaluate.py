@@ -1,0 +1,110 @@
+"""`gltf-iri evaluate`: the contract of its JSON and its one-sentence failures."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gltf_iri.cli.main import run
+from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
+from gltf_iri.evaluation.registry import EVALUATORS, evaluate
+
+TWO_FILMS = {
+    "asset": {"version": "2.0"},
+    "materials": [
+        {"name": "plain"},
+        {"name": "a", "extensions": {"KHR_materials_iridescence": {"iridescenceFactor": 0.5}}},
+        {"name": "b", "extensions": {"KHR_materials_iridescence": {"iridescenceFactor": 1.0}}},
+    ],
+    "extensionsUsed": ["KHR_materials_iridescence"],
+}
+
+
+@pytest.fixture
+def two_films(tmp_path: Path) -> str:
+    path = tmp_path / "two.gltf"
+    path.write_text(json.dumps(TWO_FILMS), encoding="utf-8")
+    return str(path)
+
+
+def answer(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, object]:
+    assert run(["evaluate", *arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+@pytest.mark.parametrize("method", EVALUATORS)
+def test_options_describe_the_film(method: str, capsys: pytest.CaptureFixture[str]) -> None:
+    options = "--film-ior 1.4 --thickness 250 --base-nk 0.2,3.4 --outside-ior 1.1 --cos 1,0.5 --white E"
+    found = answer(capsys, *options.split(), "--method", method)
+    expected = evaluate(method, Film.of([1.0, 0.5], 250.0, 1.4, base_from_ior(0.2 + 3.4j), 1.1), white="E")
+    assert found["method"] == method
+    assert found["white"] == expected.white
+    assert found["cos"] == [1.0, 0.5]
+    assert np.array_equal(np.array(found["rgb"]), expected.rgb)
+
+
+def test_one_reflectance_stands_for_three_channels(capsys: pytest.CaptureFixture[str]) -> None:
+    found = answer(capsys, "--base-f0", "0.5", "--cos", "0.7")
+    expected = evaluate("khr-guarded", Film.of([0.7], 400.0, 1.3, base_from_f0([0.5] * 3))).rgb
+    assert np.array_equal(np.array(found["rgb"]), expected)
+
+
+def test_undefined_values_are_null_and_named(capsys: pytest.CaptureFixture[str]) -> None:
+    found = answer(capsys, "--base-f0", "0.9999", "--method", "khr", "--cos", "1")
+    assert found["rgb"] == [[None, None, None]]
+    assert list(found["undefined"].values()) == [[1.0]]
+
+
+def test_material_is_chosen_by_name_or_number(two_films: str, capsys: pytest.CaptureFixture[str]) -> None:
+    by_name = answer(capsys, two_films, "--material", "b")
+    by_number = answer(capsys, two_films, "--material", "2")
+    assert by_name == by_number
+    assert by_name["material"] == "b"
+
+
+def test_layered_adds_specular_and_base_weight(two_films: str, capsys: pytest.CaptureFixture[str]) -> None:
+    found = answer(capsys, two_films, "--material", "a", "--layered", "--cos", "1,0.3")
+    assert np.array(found["specular"]).shape == (2, 3)
+    assert np.array(found["base_weight"]).shape == (2,)
+
+
+def test_table_shows_what_json_says(two_films: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["evaluate", two_films, "--material", "b", "--cos", "0.5"]) == 0
+    shown = capsys.readouterr().out
+    rgb = answer(capsys, two_films, "--material", "b", "--cos", "0.5")["rgb"][0]
+    assert all(f"{value:.6f}" in shown for value in rgb)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "--cos 1,x",
+        "--cos 2",
+        "--base-nk 1",
+        "--base-f0 0.1,0.2",
+        "--base-f0 1.5",
+        "--base-f0 0.1 --base-ior 1.5",
+        "--method nobody",
+        "--white D50",
+        "--material 1",
+        "--layered",
+        "--thickness -1",
+        "missing.gltf",
+    ],
+)
+def test_wrong_calls_leave_with_two_and_one_line(wrong: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["evaluate", *wrong.split()]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == ""
+    assert streams.err.count("\n") == 1
+
+
+@pytest.mark.parametrize("wrong", ["", "--material plain", "--material 7", "--material b --film-ior 2"])
+def test_wrong_questions_about_a_file_too(
+    wrong: str, two_films: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["evaluate", two_films, *wrong.split()]) == 2
+    assert capsys.readouterr().err.count("\n") == 1

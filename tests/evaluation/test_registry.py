@@ -1,0 +1,67 @@
+"""Names, functions and descriptors of methods say the same."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
+from gltf_iri.evaluation.registry import EVALUATORS, evaluate
+from gltf_iri.planning.method import METHODS
+
+FILM = Film.of(0.8, 300.0, 1.3, base_from_ior(1.5))
+
+
+def test_every_film_method_has_an_evaluator_and_no_other() -> None:
+    assert set(EVALUATORS) == {name for name, method in METHODS.items() if method.domain == "film"}
+
+
+@pytest.mark.parametrize("name", EVALUATORS)
+def test_arrays_broadcast(name: str) -> None:
+    film = Film.of(np.linspace(0.1, 1, 4)[:, None], [100.0, 200.0, 300.0], 1.3, base_from_f0([0.9, 0.6, 0.3]))
+    evaluation = evaluate(name, film)
+    assert evaluation.rgb.shape == (4, 3, 3)
+    assert evaluation.method == name
+    single = evaluate(name, Film.of(0.1, 200.0, 1.3, base_from_f0([0.9, 0.6, 0.3]))).rgb
+    assert np.abs(evaluation.rgb[0, 1] - single).max() <= 1e-9
+
+
+@pytest.mark.parametrize("name", EVALUATORS)
+def test_no_films_give_no_colours(name: str) -> None:
+    assert evaluate(name, Film.of(np.zeros(0), 300.0, 1.3, base_from_ior(1.5))).rgb.shape == (0, 3)
+
+
+def test_unknown_names_are_refused() -> None:
+    with pytest.raises(UsageError, match="no method 'KHR'"):
+        evaluate("KHR", FILM)
+    with pytest.raises(UsageError, match="no white 'D50'"):
+        evaluate("khr", FILM, white="D50")
+
+
+@pytest.mark.parametrize(
+    "bad",
+    [
+        {"cos_theta_1": 1.1},
+        {"cos_theta_1": -0.1},
+        {"cos_theta_1": np.nan},
+        {"thickness_nm": -1.0},
+        {"thickness_nm": np.inf},
+        {"film_ior": 0.0},
+        {"film_ior": np.nan},
+        {"outside_ior": -1.0},
+    ],
+)
+def test_films_that_cannot_be_are_refused(bad: dict[str, float]) -> None:
+    good = {"cos_theta_1": 0.5, "thickness_nm": 300.0, "film_ior": 1.3, "outside_ior": 1.0}
+    with pytest.raises(UsageError):
+        Film.of(**(good | bad), base=base_from_ior(1.5))
+
+
+def test_bases_that_cannot_be_are_refused() -> None:
+    for f0 in ([0.1, 0.2], [-0.1, 0, 0], [0, 0, 1.1], [0, 0, np.nan]):
+        with pytest.raises(UsageError):
+            base_from_f0(f0)
+    for index in (-1.0, 1.5 - 0.1j, np.nan, np.inf):
+        with pytest.raises(UsageError):
+            base_from_ior(index)
