@@ -104,7 +104,7 @@ def _first_edges(opd_nm: float) -> Float64:
     wanted = np.maximum(1.0, np.ceil(phase_rad / _PHASE_PER_PANEL_RAD))
     if wanted.sum() > _MOST_PANELS:
         raise UsageError(
-            f"A path difference of {opd_nm:.3g} nm has more fringes than can be summed: make the film thinner."
+            f"A path difference of {opd_nm:.3g} nm has too many fringes to be summed: make the film thinner."
         )
     cuts = wanted.astype(np.intp)
     steps = [
