@@ -99,7 +99,7 @@ class Comparison:
     """Everything that the report shows."""
 
     file: str
-    white: str  # of the truth, and of ΔE's CIELAB
+    white: str  # of the truth; ΔE's CIELAB is always under D65
     setup: Mapping[str, Any]  # size, camera, environment, exposure: how the picture was taken
     program: Mapping[str, str]  # versions, and OpenGL's own name for what drew it
     materials: tuple[MaterialResult, ...]

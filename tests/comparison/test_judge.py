@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.comparison.methods import BRANCH
 from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.tolerances import GLSL_PIXEL_RELATIVE
@@ -56,3 +57,12 @@ def test_both_whites_are_named(judged) -> None:
     row = judged(method="khr").to_json()["materials"][0]
     assert row["white"]["truth"] == "D65"
     assert "1.205" in row["white"]["method"]
+
+
+def test_pixels_on_a_branch_of_the_text_are_left_out_and_counted(judged) -> None:
+    """Base index = film index after the text's offset of 0.0001: float32 may turn the phase by π or not."""
+    f0 = ((1.35 - 1.0) / (1.35 + 1.0)) ** 2 - 0.0001
+    material = judged(0.5, method="khr", base_color=(f0, 0.5, 0.5)).materials[0]
+    assert material.left_out == 16
+    assert material.glsl_vs_python.all.pixels == 0
+    assert material.undefined[BRANCH] == 16
