@@ -10,7 +10,7 @@ from gltf_iri.rendering.source import compile_program
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["compute_texture", "set_uniforms"]
+__all__ = ["compute_texture", "release_framebuffer", "set_uniforms"]
 
 
 def set_uniforms(program: moderngl.Program, values: Mapping[str, Any]) -> None:
@@ -18,6 +18,12 @@ def set_uniforms(program: moderngl.Program, values: Mapping[str, Any]) -> None:
     for name, value in values.items():
         if name in program:
             program[name] = value
+
+
+def release_framebuffer(context: moderngl.Context, framebuffer: moderngl.Framebuffer) -> None:
+    """Release `framebuffer` after leaving it: moderngl binds what was last in use again, alive or not."""
+    context.detect_framebuffer(0).use()
+    framebuffer.release()
 
 
 def compute_texture(
@@ -44,5 +50,5 @@ def compute_texture(
     finally:
         triangle.release()
         program.release()
-        framebuffer.release()
+        release_framebuffer(context, framebuffer)
     return target

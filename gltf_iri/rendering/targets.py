@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from gltf_iri.errors import MissingCapabilityError, UsageError
 from gltf_iri.rendering.frame import INPUT_TARGETS, ShadingInputs
+from gltf_iri.rendering.fullscreen import release_framebuffer
 
 if TYPE_CHECKING:
     import moderngl
@@ -70,7 +71,7 @@ class Targets:
             for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
                 if attachment is not None:
                     attachment.release()
-            framebuffer.release()
+            release_framebuffer(self._context, framebuffer)
 
 
 def shading_inputs(targets: Targets) -> ShadingInputs:
