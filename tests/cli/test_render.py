@@ -1,0 +1,92 @@
+"""`gltf-iri render` from the outside: what it writes, what it prints, and how it refuses."""
+
+from __future__ import annotations
+
+import base64
+import json
+
+import numpy as np
+import pytest
+
+from gltf_iri.cli.main import run
+
+
+@pytest.fixture
+def triangle(tmp_path):
+    """A file of one triangle with a film over metal."""
+    points = np.array([[-1, -1, 0], [1, -1, 0], [0, 1, 0]], np.float32)
+    data = base64.b64encode(points.tobytes()).decode()
+    film = {"iridescenceFactor": 1.0}
+    path = tmp_path / "triangle.gltf"
+    path.write_text(
+        json.dumps(
+            {
+                "asset": {"version": "2.0"},
+                "extensionsUsed": ["KHR_materials_iridescence"],
+                "buffers": [{"byteLength": 36, "uri": f"data:application/octet-stream;base64,{data}"}],
+                "bufferViews": [{"buffer": 0, "byteLength": 36}],
+                "accessors": [
+                    {
+                        "bufferView": 0,
+                        "componentType": 5126,
+                        "type": "VEC3",
+                        "count": 3,
+                        "min": [-1, -1, 0],
+                        "max": [1, 1, 0],
+                    }
+                ],
+                "materials": [{"extensions": {"KHR_materials_iridescence": film}}],
+                "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
+                "nodes": [{"mesh": 0}],
+                "scenes": [{"nodes": [0]}],
+            }
+        )
+    )
+    return path
+
+
+@pytest.mark.parametrize("name", ["out.png", "out.exr"])
+def test_json_tells_what_was_drawn(gl_context, triangle, tmp_path, capsys, name):
+    out = tmp_path / name
+    assert run(["render", str(triangle), "-o", str(out), "--size", "32x24", "--env", "white", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert out.stat().st_size > 0
+    assert told["out"] == str(out)
+    assert told["size"] == [32, 24]
+    assert told["renderer"] and told["ms"] > 0.0
+    assert told["method"] == "khr-guarded"
+    assert told["environment"] == "white"
+
+
+def test_the_method_asked_for_is_used(gl_context, triangle, tmp_path, capsys):
+    out = str(tmp_path / "a.png")
+    assert run(["render", str(triangle), "-o", out, "--size", "8x8", "--method", "khr", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["method"] == "khr"
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (["-o", "a.gif"], ".png or .exr"),
+        (["-o", "nowhere/a.png"], "nowhere"),
+        (["-o", "a.png", "--size", "640"], "640"),
+        (["-o", "a.png", "--size", "0x8"], "0 × 8"),
+        (["-o", "a.png", "--size", "99999x1"], "99999 × 1"),
+        (["-o", "a.png", "--method", "spectral"], "khr, khr-guarded"),
+        (["-o", "a.png", "--method", "magic"], "magic"),
+        (["-o", "a.png", "--camera", "2"], "no camera 2"),
+        (["-o", "a.png", "--env", "missing.hdr"], "missing.hdr"),
+        (["-o", "a.png", "--exposure", "nan"], "nan"),
+        (["-o", "a.exr", "--tonemap", "aces"], "not tone mapped"),
+        ([], "--out"),
+    ],
+)
+def test_a_wrong_call_is_one_sentence_and_code_2(
+    gl_context, triangle, tmp_path, monkeypatch, capsys, options, said
+):
+    monkeypatch.chdir(tmp_path)
+    assert run(["render", str(triangle), *options]) == 2
+    streams = capsys.readouterr()
+    assert streams.out == ""
+    assert said in streams.err and len(streams.err.strip().splitlines()) == 1
+    assert [path.name for path in tmp_path.iterdir()] == ["triangle.gltf"]

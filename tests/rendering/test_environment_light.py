@@ -1,0 +1,99 @@
+"""Prefiltering: sizes of light are kept, nothing shows where the map is cut or where its poles lie."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gltf_iri.material.material import Material, MetallicRoughness
+from gltf_iri.rendering.environment_levels import environment_levels
+from gltf_iri.rendering.environment_light import LAYER_COUNT, prepare_environment
+from gltf_iri.scene.model import Environment
+
+AXIS = np.array([0.48, 0.6, -0.64])
+
+
+def directions(height, width):
+    polar = (np.arange(height) + 0.5) / height * np.pi
+    azimuth = ((np.arange(width) + 0.5) / width - 0.5) * 2 * np.pi
+    sine = np.sin(polar)[:, None]
+    cosine = np.broadcast_to(np.cos(polar)[:, None], (height, width))
+    return np.stack([sine * np.cos(azimuth), cosine, sine * np.sin(azimuth)], axis=-1)
+
+
+def slanted_sky():
+    """L(ω) = 1 + a·ω: any lobe that is symmetrical about N turns it into 1 + k a·N with one k."""
+    radiance = 1.0 + directions(128, 256) @ AXIS
+    return Environment("slanted", np.repeat(radiance[..., None], 3, axis=-1).astype(np.float32))
+
+
+def texels(texture):
+    return (
+        np.frombuffer(texture.read(), np.float32).reshape(*texture.size[::-1], -1)[..., 0].astype(np.float64)
+    )
+
+
+@pytest.fixture
+def prepared(gl_context):
+    light = prepare_environment(gl_context, slanted_sky())
+    yield light
+    light.release()
+
+
+def test_irradiance_of_a_slanted_sky_is_its_cosine_integral(prepared):
+    irradiance = texels(prepared.irradiance)
+    expected = 1.0 + 2.0 / 3.0 * (directions(*irradiance.shape) @ AXIS)
+    assert np.abs(irradiance - expected).max() <= 2e-3
+
+
+def test_every_layer_blurs_alike_in_all_directions_seam_and_poles_included(prepared):
+    layers = texels(prepared.layers).reshape(LAYER_COUNT, -1, prepared.layers.size[0])
+    slant = directions(*layers.shape[1:]) @ AXIS
+    for layer in layers:
+        shrink = np.sum((layer - 1.0) * slant) / np.sum(slant * slant)
+        assert np.abs(layer - 1.0 - shrink * slant).max() <= 0.02
+
+
+def test_rougher_layers_blur_more(prepared):
+    layers = texels(prepared.layers).reshape(LAYER_COUNT, -1)
+    contrast = np.ptp(layers, axis=1)
+    assert np.all(np.diff(contrast) < 0.0)
+
+
+def test_halving_keeps_the_light_of_the_whole_sphere():
+    rng = np.random.default_rng(7)
+    sky = rng.uniform(0.0, 5.0, (33, 70, 3)).astype(np.float32)
+    totals = []
+    for level in environment_levels(sky):
+        edges = np.cos(np.linspace(0.0, np.pi, level.shape[0] + 1))
+        totals.append(-np.diff(edges) @ level.mean(axis=1))
+    assert np.allclose(totals, totals[0], rtol=1e-5)
+
+
+def test_halving_weighs_texels_by_solid_angle():
+    sky = np.zeros((4, 1, 1), np.float32)
+    sky[0] = 1.0
+    polar_cap, band = 1.0 - np.cos(np.pi / 4), np.cos(np.pi / 4)
+    assert environment_levels(sky)[1][0, 0, 0] == pytest.approx(polar_cap / (polar_cap + band), rel=1e-6)
+
+
+@pytest.mark.parametrize("column", [0, 40, 90, 127, 200, 255])
+def test_a_mirror_shows_a_lamp_where_the_mirror_law_puts_it(stage, props, column):
+    sky = np.zeros((128, 256, 3), np.float32)
+    sky[44:48, [(column - 1) % 256, column, (column + 1) % 256]] = 1000.0
+    lamp = directions(128, 256)[45, column]
+    mirror = Material(pbr=MetallicRoughness(metallic_factor=1.0, roughness_factor=0.0))
+    frame = stage.draw(
+        props.sphere(),
+        mirror,
+        environment=Environment("lamp", sky),
+        seen_from=props.camera(half_height=1.0),
+        size=(192, 192),
+        with_inputs=True,
+    )
+    weight = frame.inputs.reflected_radiance[..., 0].astype(np.float64)
+    assert weight.max() > 0.0
+    normal = np.sum(frame.inputs.normal * weight[..., None], axis=(0, 1))
+    normal /= np.linalg.norm(normal)
+    mirrored = 2.0 * normal[2] * normal - [0.0, 0.0, 1.0]
+    assert np.degrees(np.arccos(mirrored @ lamp)) <= 3.0
