@@ -1,4 +1,4 @@
-"""Textures arrive upright, in their colour space, wrapped as their sampler says, no more often than needed."""
+"""Textures arrive upright, in their colour space, wrapped by their sampler, no more often than needed."""
 
 from __future__ import annotations
 
