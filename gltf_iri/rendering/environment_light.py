@@ -20,17 +20,28 @@ from gltf_iri.scene.model import Environment
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["LAYER_COUNT", "EnvironmentLight", "compute_dfg_table", "prepare_environment"]
+__all__ = [
+    "LAYER_COUNT",
+    "SMOOTH_LAYER_COUNT",
+    "EnvironmentLight",
+    "compute_dfg_table",
+    "prepare_environment",
+]
 
 Float32 = NDArray[np.float32]
 
 LAYER_COUNT: Final = 8  # perceptual roughness ⅛, ¼ … 1; the map itself stands for 0
-_LAYER_HEIGHT: Final = 128
+
+# Narrow lobes are sampled and want many texels; wide ones are integrated over a small level, without noise.
+SMOOTH_LAYER_COUNT: Final = 3
+_SMOOTH_SIZE: Final = (256, 128)
+_ROUGH_SIZE: Final = (64, 32)
+_ROUGH_SOURCE_HEIGHT: Final = 32
+
 _SAMPLES: Final = 256
 # The samples are spread evenly enough for each to average over half of its share: less blur at no more noise.
 _SHARE_AVERAGED: Final = 0.5
-_IRRADIANCE_SIZE: Final = (64, 32)
-_IRRADIANCE_SOURCE_HEIGHT: Final = 32
+
 _DFG_SIZE: Final = (128, 128)
 
 
@@ -39,12 +50,12 @@ class EnvironmentLight:
     """The textures that shaders/lighting/environment.glsl reads, apart from the DFG table."""
 
     sharp: moderngl.Texture
-    layers: moderngl.Texture
-    irradiance: moderngl.Texture
+    smooth: moderngl.Texture
+    rough: moderngl.Texture
 
     def release(self) -> None:
         """Give the textures back to OpenGL."""
-        for texture in (self.sharp, self.layers, self.irradiance):
+        for texture in (self.sharp, self.smooth, self.rough):
             texture.release()
 
 
@@ -52,29 +63,34 @@ def prepare_environment(context: moderngl.Context, environment: Environment) -> 
     """Prefilter `environment`; the caller releases the result."""
     levels = environment_levels(environment.radiance)
     sharp = _upload(context, levels)
-    samples = context.texture((_SAMPLES, LAYER_COUNT), 4, _lobe_samples().tobytes(), dtype="f4")
+    samples = context.texture((_SAMPLES, SMOOTH_LAYER_COUNT), 4, _lobe_samples().tobytes(), dtype="f4")
     samples.filter = (context.NEAREST, context.NEAREST)
-    layers = compute_texture(
+    smooth = compute_texture(
         context,
         "pass/prefilter.frag",
-        (2 * _LAYER_HEIGHT, _LAYER_HEIGHT * LAYER_COUNT),
+        (_SMOOTH_SIZE[0], _SMOOTH_SIZE[1] * SMOOTH_LAYER_COUNT),
         4,
-        {"u_layer_height": _LAYER_HEIGHT},
+        {"u_layer_size": _SMOOTH_SIZE},
         {"u_environment": sharp, "u_samples": samples},
     )
     samples.release()
-    level = next(i for i, rows in enumerate(levels) if rows.shape[0] <= _IRRADIANCE_SOURCE_HEIGHT)
-    irradiance = compute_texture(
+    rough = compute_texture(
         context,
-        "pass/irradiance.frag",
-        _IRRADIANCE_SIZE,
+        "pass/prefilter_rough.frag",
+        # One more for irradiance.
+        (_ROUGH_SIZE[0], _ROUGH_SIZE[1] * (LAYER_COUNT - SMOOTH_LAYER_COUNT + 1)),
         4,
-        {"u_level": level, "u_size": _IRRADIANCE_SIZE},
+        {
+            "u_level": next(i for i, texels in enumerate(levels) if len(texels) <= _ROUGH_SOURCE_HEIGHT),
+            "u_layer_size": _ROUGH_SIZE,
+            "u_first_layer": SMOOTH_LAYER_COUNT,
+            "u_layer_count": LAYER_COUNT,
+        },
         {"u_environment": sharp},
     )
-    for texture in (layers, irradiance):
+    for texture in (smooth, rough):
         _wrap(context, texture)
-    return EnvironmentLight(sharp, layers, irradiance)
+    return EnvironmentLight(sharp, smooth, rough)
 
 
 def compute_dfg_table(context: moderngl.Context) -> moderngl.Texture:
@@ -103,14 +119,14 @@ def _wrap(context: moderngl.Context, texture: moderngl.Texture) -> None:
 
 
 def _lobe_samples() -> Float32:
-    """Return (LAYER_COUNT, _SAMPLES, 4): directions of a GGX lobe about +Z seen from +Z, and solid angles.
+    """Return (layers, _SAMPLES, 4): directions of a GGX lobe about +Z, seen from +Z, and solid angles.
 
     Facets follow D·cosθ_h; a facet at θ_h mirrors into 2θ_h with density D/4 (D of glTF 2.0 Appendix B.3), so
     that each of n samples stands for 4/(n·D) steradians. Directions below the horizon weigh nothing.
     """
     height = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
     turn = 2.0 * np.pi * np.array([_radical_inverse(n) for n in range(_SAMPLES)])
-    alpha = ((np.arange(1, LAYER_COUNT + 1) / LAYER_COUNT) ** 2)[:, None]
+    alpha = ((np.arange(1, SMOOTH_LAYER_COUNT + 1) / LAYER_COUNT) ** 2)[:, None]
     cos2 = (1.0 - height) / (1.0 + (alpha**2 - 1.0) * height)
     sin2 = 1.0 - cos2
     density = alpha**2 / (np.pi * (sin2 + alpha**2 * cos2) ** 2)

@@ -34,8 +34,8 @@ class ImageLightStore:
         light = self._environments[id(environment)][1]
         return {
             "u_environment": light.sharp,
-            "u_environment_layers": light.layers,
-            "u_environment_irradiance": light.irradiance,
+            "u_environment_smooth": light.smooth,
+            "u_environment_rough": light.rough,
             "u_dfg": self._dfg,
         }
 

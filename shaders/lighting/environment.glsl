@@ -1,21 +1,23 @@
-// The environment prefiltered: sharp map, layers for roughness ⅛ … 1, irradiance, DFG table.
-// Made by shaders/pass/{prefilter,irradiance,dfg}.frag.
+// The environment prefiltered: the sharp map, layers for roughness ⅛ … 1, irradiance, and the DFG table.
+// Made by shaders/pass/{prefilter,prefilter_rough,dfg}.frag.
 
 #include "common/math.glsl"
 #include "lighting/dfg.glsl"
 #include "lighting/equirect.glsl"
 
 uniform sampler2D u_environment;
-uniform sampler2D u_environment_layers;  // layers of growing roughness, one below the other
-uniform sampler2D u_environment_irradiance;
+uniform sampler2D u_environment_smooth;  // layers of low roughness
+uniform sampler2D u_environment_rough;   // layers of high roughness, then irradiance
 uniform sampler2D u_dfg;
+uniform int u_smooth_layer_count;
 uniform int u_layer_count;
 
 vec3 environment_layer(vec2 uv, int layer) {
-    float height = float(textureSize(u_environment_layers, 0).y / u_layer_count);
-    // Half a texel from the edge, the filter does not reach into the next layer.
-    float row = clamp(uv.y * height, 0.5, height - 0.5) + float(layer) * height;
-    return textureLod(u_environment_layers, vec2(uv.x, row / (height * float(u_layer_count))), 0.0).rgb;
+    if (layer < u_smooth_layer_count) {
+        return sample_stack(u_environment_smooth, u_smooth_layer_count, layer, uv).rgb;
+    }
+    int rough_count = u_layer_count - u_smooth_layer_count + 1;
+    return sample_stack(u_environment_rough, rough_count, layer - u_smooth_layer_count, uv).rgb;
 }
 
 // Radiance from `direction` as a lobe of the given roughness sees it. `spread_rad`: angle between the directions of
@@ -33,5 +35,5 @@ vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spre
 
 // E/π: a white environment gives 1.
 vec3 environment_irradiance(vec3 normal) {
-    return textureLod(u_environment_irradiance, equirect_from_direction(normal), 0.0).rgb;
+    return environment_layer(equirect_from_direction(normal), u_layer_count);
 }

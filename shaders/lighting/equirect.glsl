@@ -1,4 +1,4 @@
-// Directions on an equirectangular map: row 0 at +Y, the middle column at +X, +Z to its right.
+// Directions on an equirectangular map: first row towards +Y, middle column at +X, +Z to its right.
 
 #include "common/math.glsl"
 
@@ -14,4 +14,16 @@ vec3 direction_from_equirect(vec2 uv) {
     float azimuth = (uv.x - 0.5) * 2.0 * PI;
     float polar = uv.y * PI;
     return vec3(sin(polar) * cos(azimuth), cos(polar), sin(polar) * sin(azimuth));
+}
+
+// Maps made here have the poles themselves in their first and last row, so that filtering is continuous there, and
+// may stand one below the other: `size` is that of one map, `index` its place in the stack.
+vec3 direction_of_texel(vec2 pixel, vec2 size) {
+    return direction_from_equirect(vec2(pixel.x / size.x, (mod(pixel.y, size.y) - 0.5) / (size.y - 1.0)));
+}
+
+vec4 sample_stack(sampler2D stack, int count, int index, vec2 uv) {
+    float height = float(textureSize(stack, 0).y / count);
+    float row = uv.y * (height - 1.0) + 0.5 + float(index) * height;
+    return textureLod(stack, vec2(uv.x, row / (height * float(count))), 0.0);
 }

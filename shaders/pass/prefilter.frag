@@ -1,4 +1,4 @@
-// The environment as facets of every roughness mirror it: one layer a roughness, layers one below the other.
+// The environment as smooth facets mirror it: one layer a roughness, layers one below the other.
 // Karis 2013, "Real Shading in Unreal Engine 4" (N = V = R, weights N·L); Křivánek & Colbert 2008, "Real-time Shading
 // with Filtered Importance Sampling" (each sample reads the level whose texels are as large as its share of the lobe).
 
@@ -6,19 +6,17 @@
 
 uniform sampler2D u_environment;  // with solid-angle weighted levels
 uniform sampler2D u_samples;      // one row a layer: direction about +Z, steradians to average over
-uniform int u_layer_height;
+uniform ivec2 u_layer_size;
 
 out vec4 out_radiance;
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
-    int layer = pixel.y / u_layer_height;
-    vec2 size = vec2(textureSize(u_environment, 0));
-    int width = 2 * u_layer_height;
-    vec2 uv = (vec2(pixel.x, pixel.y - layer * u_layer_height) + 0.5) / vec2(width, u_layer_height);
-    vec3 normal = direction_from_equirect(uv);
-    vec3 tangent = normalize(vec3(normal.z, 0.0, -normal.x));  // pixel centres never lie on a pole
+    int layer = int(gl_FragCoord.y) / u_layer_size.y;
+    vec3 normal = direction_of_texel(gl_FragCoord.xy, vec2(u_layer_size));
+    float azimuth = gl_FragCoord.x / float(u_layer_size.x) * 2.0 * PI;
+    vec3 tangent = vec3(sin(azimuth), 0.0, -cos(azimuth));  // eastwards, at the poles too
     mat3 frame = mat3(tangent, cross(normal, tangent), normal);
+    vec2 size = vec2(textureSize(u_environment, 0));
     float texel_solid_angle = 2.0 * sq(PI) / (size.x * size.y);  // on the equator
 
     vec3 sum = vec3(0.0);
