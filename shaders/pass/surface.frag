@@ -53,8 +53,10 @@ vec3 punctual_lighting(Surface s, vec3 n, vec3 v, float n_dot_v) {
     for (int i = 0; i < u_light_count; ++i) {
         Illuminant light = punctual_light(i, v_position);
         float n_dot_l = clamp(dot(n, light.direction), 0.0, 1.0);
-        if (n_dot_l > 0.0) {
-            vec3 h = normalize(v + light.direction);
+        vec3 halfway = v + light.direction;
+        // Looking straight into a light there is no half vector, and no facet that could mirror it.
+        if (n_dot_l > 0.0 && dot(halfway, halfway) > 0.0) {
+            vec3 h = normalize(halfway);
             float v_dot_h = clamp(dot(v, h), 0.0, 1.0);
             vec3 n_cross_h = cross(n, h);
             float facets = d_ggx(dot(n_cross_h, n_cross_h), s.alpha_roughness) *

@@ -72,6 +72,14 @@ def test_lights_add_up_and_one_behind_the_surface_adds_nothing(stage, props):
     assert three == pytest.approx(2.0 * one, rel=1e-6)
 
 
+def test_a_light_straight_behind_what_leans_over_the_edge_leaves_finite_pixels(stage, props):
+    # Normals that lean away from the viewer, towards a light that shines right into the camera.
+    normals = np.tile(np.float32([0.8, 0.0, -0.6]), (4, 1))
+    into_the_camera = Light("", "directional", (1.0, 1.0, 1.0), 5.0, np.zeros(3), -DOWN)
+    frame = stage.draw(props.quad(normals=normals), Material(), lights=[into_the_camera])
+    assert np.isfinite(frame.rgba).all()
+
+
 def test_a_scene_without_any_light_is_black_and_says_so(stage, props):
     frame = stage.draw(props.quad(), CHALK)
     assert frame.rgba[32, 32].tolist() == [0, 0, 0, 1]

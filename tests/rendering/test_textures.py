@@ -13,7 +13,7 @@ from gltf_iri.material.unlit import Unlit
 from gltf_iri.rendering.textures import TextureStore
 
 RED, GREEN, BLUE, WHITE = (255, 0, 0, 255), (0, 255, 0, 255), (0, 0, 255, 255), (255, 255, 255, 255)
-LINEAR, NEAREST = 9729, 9728
+LINEAR, LINEAR_MIPMAP_LINEAR = 9729, 9987
 REPEAT, CLAMP, MIRROR = 10497, 33071, 33648
 
 
@@ -74,6 +74,17 @@ def test_linear_filtering_blends_light_not_stored_values(stage, props):
     texture = images.add([[black, WHITE]], mag_filter=LINEAR, min_filter=LINEAR, wrap_s=CLAMP)
     frame = stage.draw(props.quad(), unlit(texture), images=images, size=(65, 65))
     assert frame.rgba[32, 32, 0] == pytest.approx(0.5, abs=0.01)
+
+
+@pytest.mark.parametrize("float_textures", [False, True])
+def test_a_small_picture_of_a_chessboard_averages_light(stage, props, float_textures):
+    images = props.Images()
+    chessboard = np.where((np.indices((64, 64)).sum(axis=0) % 2)[..., None], WHITE, (0, 0, 0, 255))
+    texture = images.add(chessboard, min_filter=LINEAR_MIPMAP_LINEAR, mag_filter=LINEAR)
+    frame = stage.draw(
+        props.quad(), unlit(texture), images=images, size=(8, 8), float_textures=float_textures
+    )
+    assert np.abs(frame.rgba[..., :3] - 0.5).max() <= 0.01
 
 
 def test_an_image_is_uploaded_once_for_each_way_of_reading_it(gl_context, props):
