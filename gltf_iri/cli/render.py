@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from gltf_iri.cli.common import file_argument, json_option, note, print_json, progress
 from gltf_iri.cli.picture_options import SIZE, exposure_option
+
+if TYPE_CHECKING:
+    from gltf_iri.planning.material_plan import MaterialPlan
 
 __all__ = ["command"]
 
@@ -74,11 +79,9 @@ def command(
         advance()
 
     used = [plan for plan in plans if plan.index in {primitive.material for primitive in scene.primitives}]
-    not_drawn = {plan.name or f"material {plan.index}": plan.not_drawn for plan in used if plan.not_drawn}
     notes = dict.fromkeys(
         (*model.notes, *scene.notes, *(environment.notes if environment else ()), *frame.notes)
     )
-    methods = sorted({plan.method for plan in used if plan.method is not None})
     if as_json:
         print_json(
             {
@@ -86,17 +89,28 @@ def command(
                 "size": list(size),
                 "renderer": frame.renderer,
                 "ms": round(frame.milliseconds, 3),
-                "method": methods[0] if methods else None,
+                "method": next((plan.method for plan in used if plan.method is not None), None),
                 "environment": environment.name if environment else None,
                 "camera": view.name,
-                "not_drawn": not_drawn,
+                "not_drawn": [
+                    {"material": plan.index, "name": plan.name, "effects": dict(plan.not_drawn)}
+                    for plan in used
+                    if plan.not_drawn
+                ],
                 "notes": list(notes),
             }
         )
         return
-    for text in notes:
+    for text in (*notes, *_not_drawn(used)):
         note(text)
-    for material, missing in not_drawn.items():
-        for what, reason in missing.items():
-            note(f"{material}: {what} is not drawn: {reason}.")
     click.echo(f"{out} ({size[0]} × {size[1]}, drawn in {frame.milliseconds:.0f} ms by {frame.renderer})")
+
+
+def _not_drawn(plans: Iterable[MaterialPlan]) -> Iterator[str]:
+    """Yield a sentence for each effect that is missing, however many materials call for it."""
+    missing: dict[tuple[str, str], int] = {}
+    for plan in plans:
+        for effect, reason in plan.not_drawn.items():
+            missing[effect, reason] = missing.get((effect, reason), 0) + 1
+    for (effect, reason), count in missing.items():
+        yield f"{effect} is missing on {count} material{'s' if count > 1 else ''}: {reason}."
