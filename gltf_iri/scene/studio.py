@@ -29,12 +29,14 @@ class SoftBox:
     softness: float  # width of the edge, as a share of the half size
 
 
-# The key shows the film's colour in one broad highlight; the fill opens the other side; the strip behind
-# draws the edge, where films change their colour most; the overhead keeps upward faces from falling black.
+# The key shows the film's colour in one broad highlight; the fill opens the other side; the strip draws a
+# line near the edge, where films change their colour most; the overhead keeps upward faces from falling
+# black. Straight behind the model there is no box: every silhouette mirrors that direction, and a bright one
+# would draw a white, ragged outline around everything.
 STUDIO_BOXES: Final = (
     SoftBox(math.radians(62.0), math.radians(28.0), 0.34, 0.30, 12.0, 0.15),
     SoftBox(math.radians(-68.0), math.radians(8.0), 0.50, 0.60, 2.8, 0.45),
-    SoftBox(math.radians(-148.0), math.radians(18.0), 0.10, 0.75, 8.0, 0.20),
+    SoftBox(math.radians(-112.0), math.radians(18.0), 0.10, 0.75, 8.0, 0.20),
     SoftBox(math.radians(0.0), math.radians(84.0), 0.55, 0.40, 2.6, 0.45),
 )
 
