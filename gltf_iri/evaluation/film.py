@@ -19,12 +19,13 @@ __all__ = [
     "base_from_dispersion",
     "base_from_f0",
     "base_from_ior",
+    "index_by_wavelength",
 ]
 
 Float64 = NDArray[np.float64]
 Complex128 = NDArray[np.complex128]
 
-# A medium's index by wavelength: (k,) nm → (k,), asked between 360 and 830 nm.
+# A medium's index by wavelength: (k,) nm → (k,), asked between 360 and 830 nm. `index_by_wavelength` asks it.
 Dispersion = Callable[[Float64], NDArray[np.complex128] | Float64]
 
 # Stands for a dispersive film in methods that know one index only: helium's d line.
@@ -74,12 +75,25 @@ def base_from_dispersion(index_at: Dispersion) -> Base:
     """
 
     def bare(rows: NDArray[np.intp], wavelength_nm: Float64) -> Float64:
-        index = _checked_index(index_at(wavelength_nm))
-        return np.abs((index - 1.0) / (index + 1.0))[None, :] ** 2 * np.ones((len(rows), 1))
+        index = _checked_index(index_by_wavelength(index_at, wavelength_nm))
+        reflectance = np.abs((index - 1.0) / (index + 1.0)) ** 2
+        return np.broadcast_to(reflectance, (len(rows), wavelength_nm.shape[-1]))
 
     f0 = np.clip(integrate_colour(bare, 1, white="D65")[0], 0.0, 1.0)
-    index = _checked_index(index_at(np.array([_REFERENCE_NM])))
+    index = _checked_index(index_by_wavelength(index_at, np.array([_REFERENCE_NM])))
     return Base(f0, index * np.ones(3), index_at)
+
+
+def index_by_wavelength(dispersion: Dispersion, wavelength_nm: Float64) -> Complex128:
+    """Return the index at `wavelength_nm` of any shape: a dispersion is asked for a row of wavelengths only.
+
+    Raises UsageError where it answers with another number of indices than it was asked for.
+    """
+    asked = np.asarray(wavelength_nm, dtype=np.float64)
+    index = np.asarray(dispersion(asked.ravel()), dtype=np.complex128)
+    if index.shape != (asked.size,):
+        raise UsageError(f"An index by wavelength has the shape {index.shape}, not ({asked.size},) as asked.")
+    return index.reshape(asked.shape)
 
 
 def _checked_index(index: ArrayLike) -> Complex128:
@@ -117,10 +131,16 @@ class Film:
     ) -> Film:
         """Check the ranges and return the film; raises UsageError where a value is out of range or NaN.
 
-        A callable `film_ior` is a dispersive film; methods with one index take the one at 587.56 nm.
+        A callable `film_ior` is a dispersive film, real at every wavelength; methods with one index take the
+        one at 587.56 nm.
         """
         film_ior_at = film_ior if callable(film_ior) else None
-        one_ior = film_ior(np.array([_REFERENCE_NM])).real[0] if callable(film_ior) else film_ior
+        one_ior = film_ior
+        if callable(film_ior):
+            at_reference = index_by_wavelength(film_ior, np.array([_REFERENCE_NM]))
+            if at_reference.imag.any():
+                raise UsageError("The film absorbs nothing: its index by wavelength must be real.")
+            one_ior = at_reference.real[0]
         arrays = [np.asarray(a, dtype=np.float64) for a in (cos_theta_1, thickness_nm, one_ior, outside_ior)]
         cosine, thickness, film, outside = arrays
         if not np.all((cosine >= 0.0) & (cosine <= 1.0)):

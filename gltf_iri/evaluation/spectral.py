@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gltf_iri.colour.integrate import integrate_colour
 from gltf_iri.colour.spaces import White
-from gltf_iri.evaluation.film import Complex128, Evaluation, Film, Float64
+from gltf_iri.evaluation.film import Complex128, Evaluation, Film, Float64, index_by_wavelength
 from gltf_iri.optics.film import FilmReflectance, tangent_over_q
 
 __all__ = ["evaluate_spectral", "film_spectrum"]
@@ -55,9 +55,11 @@ class _Rows:
     def reflectance(self, rows: NDArray[np.intp], wavelength_nm: Float64) -> Float64:
         """Return (r, k), or (r, k, 3) where the base's channels differ, at `wavelength_nm` (k,) or (r, k)."""
         film = self._film
-        film_ior = self._film_ior[rows] if film.film_ior_at is None else film.film_ior_at(wavelength_nm).real
+        film_ior = self._film_ior[rows]
+        if film.film_ior_at is not None:
+            film_ior = index_by_wavelength(film.film_ior_at, wavelength_nm).real
         if film.base.index_at is not None:
-            bases = [np.asarray(film.base.index_at(wavelength_nm), dtype=np.complex128)]
+            bases = [index_by_wavelength(film.base.index_at, wavelength_nm)]
         else:
             bases = [self._base_index[rows, c : c + 1] for c in range(1 if self._is_grey else 3)]
         films = [FilmReflectance(self._outside_ior[rows], film_ior, n3, self._cosine[rows]) for n3 in bases]

@@ -22,12 +22,15 @@ __all__ = ["FilmReflectance", "tangent_over_q"]
 
 Float64 = NDArray[np.float64]
 
+_NO_INDEX = 1e-150  # below, n² underflows; such a base reflects everything
+
 
 class FilmReflectance:
     """What a film's reflectance keeps from one wavelength to the next.
 
-    outside_ior, film_ior, cos_theta_1 : (...), real; base_index : (...), complex; they broadcast. An infinite
-    base index is the perfect mirror. Where an index depends on the wavelength, pass it with that axis.
+    outside_ior, film_ior, cos_theta_1 : (...), real; base_index : (...), complex; they broadcast. A base
+    index of ∞ or of 0 is the perfect mirror. Where an index depends on the wavelength, pass it with that
+    axis.
     """
 
     def __init__(
@@ -35,7 +38,7 @@ class FilmReflectance:
     ) -> None:
         n1, n2, c1 = (np.asarray(a, dtype=np.float64) for a in (outside_ior, film_ior, cos_theta_1))
         n3 = np.asarray(base_index, dtype=np.complex128)
-        self._is_mirror = np.isinf(n3)
+        self._is_mirror = np.isinf(n3) | (np.abs(n3) < _NO_INDEX)
         n3 = np.where(self._is_mirror, 1.0, n3)
 
         q1 = n1 * c1

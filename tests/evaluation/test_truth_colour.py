@@ -11,6 +11,7 @@ from mpmath import mp, mpf
 from numpy.typing import NDArray
 
 from gltf_iri.colour.tables import import_colour_science
+from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.tolerances import SPECTRAL_COLOUR_MAX_ABS
@@ -118,3 +119,40 @@ def test_dispersion_moves_the_colour_as_its_wavelength_says() -> None:
     rgb = evaluate("spectral", Film.of(1.0, 0.0, 1.3, base_from_dispersion(flint))).rgb
     assert np.abs(rgb - expected).max() <= SPECTRAL_COLOUR_MAX_ABS
     assert rgb[2] > rgb[0]
+
+
+def test_a_table_of_indices_is_integrated_through_its_kinks() -> None:
+    """No polynomial follows a kink: both the base's F0 and the film's truth take the slow road."""
+    from gltf_iri.evaluation.film import base_from_dispersion
+
+    table_nm = np.array([360.0, 450.0, 500.0, 550.0, 650.0, 830.0])
+    n, k = np.array([1.6, 1.4, 1.1, 0.9, 0.8, 0.7]), np.array([1.9, 1.9, 1.8, 2.0, 2.4, 3.0])
+
+    def metal(wavelength_nm: NDArray[np.float64]) -> NDArray[np.complex128]:
+        assert wavelength_nm.ndim == 1  # what a dispersion is promised to be asked
+        return np.interp(wavelength_nm, table_nm, n) + 1j * np.interp(wavelength_nm, table_nm, k)
+
+    def bare(wavelength: Any) -> Any:
+        index = complex(metal(np.array([float(wavelength)]))[0])
+        return abs((index - 1) / (index + 1)) ** 2
+
+    base = base_from_dispersion(metal)
+    expected = integrated(bare, "D65")
+    assert np.abs(base.f0 - expected).max() <= SPECTRAL_COLOUR_MAX_ABS
+    rgb = evaluate("spectral", Film.of([1.0, 1.0], 0.0, 1.5, base)).rgb
+    assert np.abs(rgb - expected).max() <= SPECTRAL_COLOUR_MAX_ABS
+
+
+def test_a_dispersion_of_the_wrong_shape_or_an_absorbing_film_is_refused() -> None:
+    with pytest.raises(UsageError, match="shape"):
+        Film.of(1.0, 300.0, lambda wavelength_nm: np.ones((1, len(wavelength_nm))), base_from_ior(1.5))
+    with pytest.raises(UsageError, match="absorbs"):
+        Film.of(1.0, 300.0, lambda wavelength_nm: wavelength_nm * 0.0 + (1.5 + 0.1j), base_from_ior(1.5))
+
+
+def test_a_base_without_index_reflects_everything() -> None:
+    """n → 0 is total reflection at every angle, the formula's 0/0 notwithstanding."""
+    nearly = evaluate("spectral", Film.of([1.0, 0.5], 300.0, 1.5, base_from_ior(1e-12))).rgb
+    rgb = evaluate("spectral", Film.of([1.0, 0.5, 0.0], 300.0, 1.5, base_from_ior(0.0))).rgb
+    assert np.abs(nearly - 1.0).max() <= 1e-9
+    assert np.abs(rgb - 1.0).max() <= 1e-12
