@@ -11,6 +11,7 @@ import io
 import os
 import sys
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from types import MappingProxyType
 
 import click
@@ -71,6 +72,7 @@ def cli() -> None:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command line and return its exit code; every expected failure becomes one line on stderr."""
+    _open_closed_streams()
     if isinstance(sys.stdout, io.TextIOWrapper):
         # A terminal or pipe without λ or é shows an escape instead; a traceback would lose the result.
         sys.stdout.reconfigure(errors="backslashreplace")
@@ -93,7 +95,17 @@ def run(arguments: Sequence[str]) -> int:
         return _reader_left()
     except OSError as error:
         return _fail(_system_sentence(error), 2)
+    except MemoryError:
+        return _fail("The machine has too little memory for this: ask for a smaller picture.", 3)
     return 0
+
+
+def _open_closed_streams() -> None:
+    """Let a caller close stdout or stderr (`>&-`): what goes there is lost, the work is done all the same."""
+    # Python leaves None in the place of such a stream, and the next file opened would get its number.
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, Path(os.devnull).open("w"))  # noqa: SIM115  # for the life of the process
 
 
 def _fail(sentence: str, exit_code: int) -> int:

@@ -109,6 +109,11 @@ def test_the_version_is_the_package_metadata_version(capsys):
         ),
         (click.ClickException("Bad day."), 1, "gltf-iri: Bad day.\n"),
         (KeyboardInterrupt(), 130, "gltf-iri: Interrupted.\n"),
+        (
+            MemoryError(),
+            3,
+            "gltf-iri: The machine has too little memory for this: ask for a smaller picture.\n",
+        ),
     ],
 )
 def test_a_failure_is_one_sentence_on_stderr_and_its_exit_code(
@@ -159,3 +164,18 @@ def test_a_reader_that_leaves_early_ends_the_program_quietly():
         os.close(write_end)
     assert done.returncode == 128 + 13
     assert done.stderr == b""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "exit_code"), [(["--version"], 0), (["evaluate", "--cos", "1"], 0), (["paint"], 2)]
+)
+@pytest.mark.parametrize("closed", [">&-", "2>&-", ">&- 2>&-"])
+def test_closed_streams_change_no_exit_code(arguments, exit_code, closed):
+    done = subprocess.run(
+        ["bash", "-c", f'"$@" {closed}', "bash", sys.executable, "-m", "gltf_iri", *arguments],
+        cwd=ROOT,
+        capture_output=True,
+        check=False,
+    )
+    assert done.returncode == exit_code
+    assert b"Traceback" not in done.stderr
