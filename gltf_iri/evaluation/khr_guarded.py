@@ -13,7 +13,8 @@ from numpy.typing import ArrayLike, NDArray
 from gltf_iri.colour.sensitivity import SENSITIVITY_WHITE, eval_sensitivity
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Evaluation, Film
-from gltf_iri.optics.fresnel import f_schlick, fresnel0_to_ior, ior_to_fresnel0
+from gltf_iri.optics.fresnel import f_schlick
+from gltf_iri.optics.ior import fresnel0_to_ior, ior_to_fresnel0
 from gltf_iri.optics.refraction import cos_theta_2_squared
 
 __all__ = [

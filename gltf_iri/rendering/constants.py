@@ -9,14 +9,26 @@ from gltf_iri.colour.spaces import XYZ_TO_REC709
 from gltf_iri.evaluation import khr, khr_guarded
 from gltf_iri.optics import microfacet
 
-__all__ = ["constants_glsl", "glsl_float"]
+__all__ = ["constants_glsl", "film_constants_glsl", "glsl_float"]
 
 
 def constants_glsl() -> str:
-    """Return the text of shaders/generated/constants.glsl."""
+    """Return the text of shaders/generated/constants.glsl, which every shaded surface reads."""
+    return _file(
+        "Constants of the Python package.",
+        [
+            "// gltf_iri/optics/microfacet.py",
+            _scalar("ALPHA_MIN", microfacet.ALPHA_MIN),
+            _scalar("N_DOT_V_MIN", microfacet.N_DOT_V_MIN),
+        ],
+    )
+
+
+def film_constants_glsl() -> str:
+    """Return the text of shaders/generated/film_constants.glsl, which only films read."""
     first, second = GAUSSIANS[:3], GAUSSIANS[3]
-    blocks = [
-        ["// Constants of the Python package. Written by gltf_iri.generate; do not edit."],
+    return _file(
+        "Constants of the film methods in Python.",
         [
             "// gltf_iri/colour/sensitivity.py: lobes of x̄, ȳ, z̄, and the second lobe of x̄",
             *_lobes("SENSITIVITY", "vec3", first),
@@ -42,19 +54,18 @@ def constants_glsl() -> str:
             _scalar("MATCHED_F0", khr_guarded.MATCHED_F0),
             _scalar("THIN_OPD_NM", khr_guarded.THIN_OPD_NM),
         ],
-        [
-            "// gltf_iri/optics/microfacet.py",
-            _scalar("ALPHA_MIN", microfacet.ALPHA_MIN),
-            _scalar("N_DOT_V_MIN", microfacet.N_DOT_V_MIN),
-        ],
-    ]
-    return "\n\n".join("\n".join(lines) for lines in blocks) + "\n"
+    )
 
 
 def glsl_float(value: float) -> str:
     """Return a GLSL literal with the nine digits that identify a float32."""
     text = f"{value:.9g}"
     return text if "." in text or "e" in text else f"{text}.0"
+
+
+def _file(about: str, *blocks: list[str]) -> str:
+    head = [f"// {about} Written by gltf_iri.generate; do not edit."]
+    return "\n\n".join("\n".join(lines) for lines in (head, *blocks)) + "\n"
 
 
 def _scalar(name: str, value: float) -> str:

@@ -1,9 +1,9 @@
 // The one place where the lobes are mixed, for punctual and for image light.
-// Sources: glTF 2.0 Appendix B.2; KHR_materials_specular; KHR_materials_iridescence, Implementation Notes.
+// Sources: glTF 2.0 Appendix B.2; KHR_materials_specular.
 
 #include "material/layering.glsl"
 #include "material/surface.glsl"
-#ifdef HAS_IRIDESCENCE
+#ifdef HAS_IRIDESCENCE  // KHR_materials_iridescence, Implementation Notes
 #include "lighting/film.glsl"
 #include "material/film_layering.glsl"
 #endif

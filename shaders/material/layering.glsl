@@ -19,5 +19,5 @@ vec3 conductor_fresnel(vec3 f0, float v_dot_h) { return f_schlick(f0, abs(v_dot_
 Layer fresnel_mix(float fresnel) { return Layer(vec3(fresnel), 1.0 - fresnel); }
 
 // base · (1 − max(R, G, B)) + colour; 1 − colour would tint the base with the opposite hue.
-// KHR_materials_iridescence and KHR_materials_specular, Implementation
+// KHR_materials_specular, Implementation
 Layer rgb_mix(vec3 reflectance) { return Layer(reflectance, 1.0 - max3(reflectance)); }

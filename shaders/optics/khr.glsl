@@ -2,8 +2,9 @@
 // Twin: gltf_iri/evaluation/khr.py. What the text leaves undefined (F0 + 0.0001 at and above 1) stays undefined here.
 
 #include "common/math.glsl"
-#include "generated/constants.glsl"
+#include "generated/film_constants.glsl"
 #include "optics/fresnel.glsl"
+#include "optics/ior.glsl"
 #include "optics/refraction.glsl"
 #include "optics/sensitivity.glsl"
 

@@ -2,8 +2,9 @@
 // Twin: gltf_iri/evaluation/khr_guarded.py, which states the constants and argues each guard.
 
 #include "common/math.glsl"
-#include "generated/constants.glsl"
+#include "generated/film_constants.glsl"
 #include "optics/fresnel.glsl"
+#include "optics/ior.glsl"
 #include "optics/refraction.glsl"
 #include "optics/sensitivity.glsl"
 

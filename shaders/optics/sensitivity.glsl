@@ -2,7 +2,7 @@
 // Twin: gltf_iri/colour/sensitivity.py, whose table the generated constants come from.
 
 #include "common/math.glsl"
-#include "generated/constants.glsl"
+#include "generated/film_constants.glsl"
 
 // cos(2π cycles + shift) with whole turns taken off first: a cosine of some hundred radians loses digits that
 // the fraction of a turn still has.

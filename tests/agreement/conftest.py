@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.evaluation.film import Film, base_from_f0
-from gltf_iri.optics.fresnel import fresnel0_to_ior
+from gltf_iri.optics.ior import fresnel0_to_ior
 from gltf_iri.rendering.probe import Probe
 
 RANDOM_FILMS = 100_000

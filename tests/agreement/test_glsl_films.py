@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gltf_iri.evaluation.film import Evaluation, Film, base_from_f0
 from gltf_iri.evaluation.khr import evaluate_khr, khr_branch_distance_ulp
 from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
-from gltf_iri.optics.fresnel import fresnel0_to_ior, ior_to_fresnel0
+from gltf_iri.optics.ior import fresnel0_to_ior, ior_to_fresnel0
 from gltf_iri.planning.method import METHODS
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.tolerances import GLSL_BRANCH_ULP, GLSL_OPTICS_MAX_ABS

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from gltf_iri.colour.sensitivity import SENSITIVITY_WHITE, eval_sensitivity
 from gltf_iri.evaluation.khr_guarded import f_schlick_matched
 from gltf_iri.optics import layering
-from gltf_iri.optics.fresnel import f_schlick, fresnel0_to_ior, ior_to_fresnel0
+from gltf_iri.optics.fresnel import f_schlick
+from gltf_iri.optics.ior import fresnel0_to_ior, ior_to_fresnel0
 from gltf_iri.optics.microfacet import ALPHA_MIN, d_ggx, v_smith_ggx_correlated
 from gltf_iri.optics.refraction import cos_theta_2_squared
 from gltf_iri.rendering.probe import Probe, ResultType
@@ -43,16 +44,16 @@ STRENGTH = uniform(0.0, 1.0)
 CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultType]] = {
     "f_schlick": ("optics/fresnel.glsl", lambda f0, c: f_schlick(f0, c[:, None]), [COLOUR, COSINE], "vec3"),
     "f_schlick of a scalar": ("optics/fresnel.glsl", f_schlick, [STRENGTH, COSINE], "float"),
-    "fresnel0_to_ior": ("optics/fresnel.glsl", fresnel0_to_ior, [uniform(0.0, 0.9999, 3)], "vec3"),
-    "fresnel0_to_ior of a scalar": ("optics/fresnel.glsl", fresnel0_to_ior, [uniform(0.0, 0.9999)], "float"),
+    "fresnel0_to_ior": ("optics/ior.glsl", fresnel0_to_ior, [uniform(0.0, 0.9999, 3)], "vec3"),
+    "fresnel0_to_ior of a scalar": ("optics/ior.glsl", fresnel0_to_ior, [uniform(0.0, 0.9999)], "float"),
     "ior_to_fresnel0": (
-        "optics/fresnel.glsl",
+        "optics/ior.glsl",
         lambda t, i: ior_to_fresnel0(t, i[:, None]),
         [uniform(1.0, 40.0, 3), uniform(1.0, 3.0)],
         "vec3",
     ),
     "ior_to_fresnel0 of a scalar": (
-        "optics/fresnel.glsl",
+        "optics/ior.glsl",
         ior_to_fresnel0,
         [uniform(1.0, 3.0), uniform(1.0, 3.0)],
         "float",

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gltf_iri.optics.fresnel import amplitude_p, amplitude_s, f_schlick, fresnel0_to_ior, ior_to_fresnel0
+from gltf_iri.optics.fresnel import amplitude_p, amplitude_s, f_schlick
+from gltf_iri.optics.ior import fresnel0_to_ior, ior_to_fresnel0
 from gltf_iri.optics.refraction import cos_theta_2_squared, normal_index, normal_index_squared
 
 COSINES = np.linspace(0.0, 1.0, 101)

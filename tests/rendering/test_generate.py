@@ -11,7 +11,7 @@ from gltf_iri import generate
 from gltf_iri.evaluation.khr_guarded import MATCHED_F0
 from gltf_iri.material.fields import Kind, properties
 from gltf_iri.material.material import Material
-from gltf_iri.rendering.constants import constants_glsl, glsl_float
+from gltf_iri.rendering.constants import film_constants_glsl, glsl_float
 
 CHECKOUT = Path(generate.__file__).resolve().parents[1]
 
@@ -28,9 +28,9 @@ def test_writing_removes_staleness_and_writes_nothing_twice(tmp_path: Path) -> N
 
 def test_one_changed_digit_makes_a_file_stale(tmp_path: Path) -> None:
     generate.write_files(tmp_path)
-    constants = tmp_path / "shaders/generated/constants.glsl"
+    constants = tmp_path / "shaders/generated/film_constants.glsl"
     constants.write_text(constants.read_text(encoding="utf-8").replace("594.88", "594.89"), encoding="utf-8")
-    assert generate.stale_files(tmp_path) == ["shaders/generated/constants.glsl"]
+    assert generate.stale_files(tmp_path) == ["shaders/generated/film_constants.glsl"]
 
 
 def test_check_names_stale_files_and_writes_nothing(
@@ -62,7 +62,7 @@ def test_literals_are_glsl_and_keep_what_float32_keeps() -> None:
 
 
 def test_constants_carry_pythons_values() -> None:
-    found = re.search(r"const float MATCHED_F0 = (\S+);", constants_glsl())
+    found = re.search(r"const float MATCHED_F0 = (\S+);", film_constants_glsl())
     assert found is not None
     assert float(found[1]) == MATCHED_F0
 

@@ -1,0 +1,28 @@
+// Constants of the film methods in Python. Written by gltf_iri.generate; do not edit.
+
+// gltf_iri/colour/sensitivity.py: lobes of x̄, ȳ, z̄, and the second lobe of x̄
+const vec3 SENSITIVITY_AMPLITUDE = vec3(0.846590002, 1.00022189, 1.00112249);
+const vec3 SENSITIVITY_WAVELENGTH_NM = vec3(594.883998, 557.00997, 452.816519);
+const vec3 SENSITIVITY_LENGTH_NM = vec3(2419.28226, 1649.95188, 1957.26858);
+const float SENSITIVITY_SECOND_AMPLITUDE = 0.153868307;
+const float SENSITIVITY_SECOND_WAVELENGTH_NM = 446.448502;
+const float SENSITIVITY_SECOND_LENGTH_NM = 2365.14261;
+const vec3 SENSITIVITY_WHITE = vec3(1.20536875, 0.948319498, 0.91000965);
+
+// gltf_iri/colour/spaces.py: the text's matrix, by columns
+const mat3 XYZ_TO_REC709 = mat3(
+    vec3(3.2404542, -0.969266, 0.0556434),
+    vec3(-1.5371385, 1.8760108, -0.2040259),
+    vec3(-0.4985314, 0.041556, 1.0572252)
+);
+
+// gltf_iri/evaluation/khr.py
+const float F0_OFFSET = 0.0001;
+const float R123_MIN = 1e-05;
+const float R123_MAX = 0.9999;
+
+// gltf_iri/evaluation/khr_guarded.py
+const float MAX_F0 = 0.9999;
+const float MAX_R123 = 0.9999;
+const float MATCHED_F0 = 0.005;
+const float THIN_OPD_NM = 100.0;
