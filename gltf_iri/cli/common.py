@@ -16,7 +16,10 @@ from typing import Any
 
 import click
 
-__all__ = ["file_argument", "json_option", "note", "print_json", "print_table", "printable", "progress"]
+__all__ = ["file_argument", "json_option", "material_label", "note", "print_json", "print_table", "printable"]
+__all__ += ["progress"]
+
+_LABEL_MAX = 60  # a name longer than this helps nobody and breaks tables
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON object instead of text.")
 
@@ -33,6 +36,14 @@ def printable(text: str) -> str:
     return "".join(
         c if c.isprintable() else " " if c.isspace() else "\N{REPLACEMENT CHARACTER}" for c in text
     )
+
+
+def material_label(index: int, name: str) -> str:
+    """Return what people read for a material: its number and its name, which may be absent or endless."""
+    if index < 0:
+        return "glTF's default"
+    shown = name if len(name) <= _LABEL_MAX else name[: _LABEL_MAX - 1] + "…"
+    return f"{index} {shown or 'unnamed'}"
 
 
 def print_json(value: Any) -> None:
@@ -68,7 +79,7 @@ def print_table(columns: Sequence[str], rows: Iterable[Sequence[object]], *, tit
         _print_rich_table(columns, cells, title)
         return
     if title:
-        click.echo(title)
+        click.echo(printable(title))
     widths = [max(map(len, column)) for column in zip(columns, *cells, strict=True)]
     for row in [list(columns), *cells]:
         click.echo("  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip())
@@ -79,7 +90,7 @@ def _print_rich_table(columns: Sequence[str], cells: Sequence[Sequence[str]], ti
     from rich.table import Table
     from rich.text import Text
 
-    table = Table(*columns, title=title or None, title_justify="left")
+    table = Table(*columns, title=Text(printable(title)) if title else None, title_justify="left")
     for row in cells:
         table.add_row(*(Text(cell) for cell in row))  # Text: square brackets in a name are not markup
     Console().print(table)

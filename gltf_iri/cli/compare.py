@@ -8,7 +8,15 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gltf_iri.cli.common import file_argument, json_option, note, print_json, print_table, progress
+from gltf_iri.cli.common import (
+    file_argument,
+    json_option,
+    material_label,
+    note,
+    print_json,
+    print_table,
+    progress,
+)
 from gltf_iri.cli.picture_options import SIZE, exposure_option
 
 if TYPE_CHECKING:
@@ -105,7 +113,8 @@ def _tell(comparison: Comparison, paths: Mapping[str, Path], *, as_json: bool) -
     print_table(columns, [_row(material) for material in comparison.to_json()["materials"]])
     for material in comparison.materials:
         for effect, reason in material.plan.not_drawn.items():
-            note(f"material {material.plan.index} {material.plan.name}: {effect} is not drawn: {reason}")
+            label = material_label(material.plan.index, material.plan.name)
+            note(f"material {label}: {effect} is not drawn: {reason}.")
     for text in comparison.notes:
         note(text)
     click.echo(f"The page is {paths['page']}.")
@@ -119,7 +128,7 @@ def _row(material: Mapping[str, Any]) -> tuple[str, ...]:
         picture.get("delta_e_mean"),
     )
     return (
-        f"{material['index']} {material['name']}",
+        material_label(material["index"], material["name"]),
         material["method"] or "no film",
         str(material["glsl_vs_python"]["pixels"]),
         *("–" if value is None else f"{value:.2g}" for value in figures),

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gltf_iri.cli.common import json_option, note, print_json, print_table
+from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
 
 if TYPE_CHECKING:
     from gltf_iri.evaluation.film import Base, Evaluation
@@ -22,6 +22,8 @@ _DEFAULT_COSINES = tuple(i / 10 for i in range(10, -1, -1))
 _DEFAULT_FILM_IOR = 1.3
 _DEFAULT_THICKNESS_NM = 400.0
 _DEFAULT_BASE_IOR = 1.5
+
+_LISTED_MAX = 8  # materials that an error names; `plan` lists them all
 
 
 class _Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in click's newest stubs only
@@ -41,7 +43,7 @@ class _Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in click's
             self.fail(f"'{value}' is not a list of numbers separated by commas", param, ctx)
         if self._counts and len(numbers) not in self._counts:
             wanted = " or ".join(map(str, self._counts))
-            self.fail(f"'{value}' has {len(numbers)} numbers, not {wanted}", param, ctx)
+            self.fail(f"'{value}' is not {wanted} numbers separated by commas", param, ctx)
         return numbers
 
 
@@ -54,7 +56,14 @@ class _Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in click's
 @click.option("--base-ior", type=float, help=f"Base by its real index [{_DEFAULT_BASE_IOR}].")
 @click.option("--base-nk", type=_Numbers(2), metavar="N,K", help="Base by its complex index N + iK.")
 @click.option("--outside-ior", type=float, help="Refractive index outside the film [1].")
-@click.option("--cos", "cosines", type=_Numbers(), metavar="C,C,…", default=_DEFAULT_COSINES, help="Cosines.")
+@click.option(
+    "--cos",
+    "cosines",
+    type=_Numbers(),
+    metavar="C,C,…",
+    default=_DEFAULT_COSINES,
+    help="Cosines [1 to 0 by 0.1].",
+)
 @click.option("--method", metavar="NAME", help="khr, khr-guarded or spectral [khr-guarded].")
 @click.option("--white", metavar="D65|E", default="D65", help="White of the colours [D65].")
 @click.option("--layered", is_flag=True, help="Add the specular colour and base weight of FILE's material.")
@@ -100,7 +109,7 @@ def _from_parameters(
         _base(given),
         _or(given["outside_ior"], 1.0),
     )
-    return _result(cosines, evaluate(method or DEFAULT_METHOD, film, white=white))
+    return _result(cosines, evaluate(DEFAULT_METHOD if method is None else method, film, white=white))
 
 
 def _base(given: dict[str, Any]) -> Base:
@@ -149,8 +158,9 @@ def _chosen(materials: tuple[Material, ...], name: str | None, file: Path) -> in
     """Return the index of the material called `name` or numbered so, or of the only one with a film."""
     from gltf_iri.errors import UsageError
 
+    candidates = list(range(len(materials)))
     if name is None:
-        fits = [i for i, material in enumerate(materials) if material.iridescence is not None]
+        candidates = fits = [i for i, material in enumerate(materials) if material.iridescence is not None]
     else:
         fits = [i for i, material in enumerate(materials) if material.name == name]
         if not fits and name.isdecimal() and int(name) < len(materials):
@@ -159,8 +169,11 @@ def _chosen(materials: tuple[Material, ...], name: str | None, file: Path) -> in
         return fits[0]
     wanted = "with a film" if name is None else f"called '{name}'"
     has = f"{len(fits)} materials {wanted}" if fits else f"no material {wanted}"
-    listed = ", ".join(f"{i} '{material.name}'" for i, material in enumerate(materials)) or "none"
-    raise UsageError(f"{file} has {has}; choose one with --material from: {listed}.")
+    if not candidates:
+        raise UsageError(f"{file} has {has}; name another file.")
+    listed = ", ".join(material_label(i, materials[i].name) for i in candidates[:_LISTED_MAX])
+    more = f" and {len(candidates) - _LISTED_MAX} more" if len(candidates) > _LISTED_MAX else ""
+    raise UsageError(f"{file} has {has}; choose one with --material from: {listed}{more}.")
 
 
 def _result(cosines: tuple[float, ...], evaluation: Evaluation) -> dict[str, Any]:
@@ -188,7 +201,8 @@ def _print(result: dict[str, Any]) -> None:
             row += [*(f"{v:.6f}" for v in specular), f"{weight:.6f}"]
     title = f"{result['method']}, {result['white']} white, linear Rec.709"
     if "material" in result:
-        title += f"; material {result['index']} '{result['material']}', {result['thickness_nm']:g} nm"
+        label = material_label(result["index"], result["material"])
+        title += f"; material {label}, {result['thickness_nm']:g} nm"
     print_table(columns, rows, title=title)
     for case, where in result["undefined"].items():
         note(f"the text leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")

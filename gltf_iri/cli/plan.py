@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gltf_iri.cli.common import file_argument, json_option, note, print_json, print_table
+from gltf_iri.cli.common import file_argument, json_option, material_label, note, print_json, print_table
 
 if TYPE_CHECKING:
     from gltf_iri.planning.material_plan import MaterialPlan
@@ -70,9 +70,8 @@ def _permutations(scene: Scene, plans: dict[int, MaterialPlan]) -> list[dict[str
 
 
 def _rows(plan: MaterialPlan) -> Iterator[Sequence[str]]:
-    label = plan.name or ("glTF's default" if plan.index < 0 else "unnamed")
-    title = label if plan.index < 0 else f"{plan.index} {label}"
-    yield title, "calls for", ", ".join(effect.value for effect in plan.effects) or "nothing"
+    label = material_label(plan.index, plan.name)
+    yield label, "calls for", ", ".join(effect.value for effect in plan.effects) or "nothing"
     if plan.method is not None:
         yield "", "method", f"{plan.method} ({plan.method_reason})"
     for effect, reason in plan.skipped.items():

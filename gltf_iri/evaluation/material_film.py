@@ -57,7 +57,7 @@ def evaluate_material(
     """
     if material.iridescence is None or plan.method is None:
         raise UsageError(
-            f"Material '{plan.name or plan.index}' has no film to evaluate ({plan.method_reason})."
+            f"Material '{plan.name or plan.index}' has nothing to evaluate: {plan.method_reason}."
         )
     iridescence = material.iridescence
     thickness = iridescence.thickness_max_nm if thickness_nm is None else thickness_nm

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from gltf_iri.cli.common import note, print_json, print_table, printable, progress
+from gltf_iri.cli.common import material_label, note, print_json, print_table, printable, progress
 from gltf_iri.planning.effects import Effect
 
 
@@ -44,6 +45,27 @@ def test_a_table_in_a_pipe_is_aligned_text_without_escape_codes(capsys):
     assert capsys.readouterr().out == (
         "Plan\nname       effects\na          metal\nlong\N{REPLACEMENT CHARACTER}name  dielectric\n"
     )
+
+
+def test_a_title_cannot_steer_the_terminal_either(capsys, monkeypatch):
+    print_table(["a"], [], title="red\x1b[31m\x07")
+    assert not {"\x1b", "\x07"} & set(capsys.readouterr().out)
+    monkeypatch.setattr(sys.stdout, "isatty", lambda: True)
+    print_table(["a wide column"], [], title="[/red] title")
+    assert "[/red]" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("index", "name", "label"),
+    [
+        (0, "nacre", "0 nacre"),
+        (3, "", "3 unnamed"),
+        (-1, "", "glTF's default"),
+        (1, "x" * 100, "1 " + "x" * 59 + "…"),
+    ],
+)
+def test_a_material_is_labelled_by_number_and_name(index, name, label):
+    assert material_label(index, name) == label
 
 
 def test_an_empty_table_shows_its_columns(capsys):

@@ -88,6 +88,7 @@ def test_table_shows_what_json_says(two_films: str, capsys: pytest.CaptureFixtur
         "--base-f0 1.5",
         "--base-f0 0.1 --base-ior 1.5",
         "--method nobody",
+        "--method=",
         "--white D50",
         "--material 1",
         "--layered",
@@ -102,9 +103,27 @@ def test_wrong_calls_leave_with_two_and_one_line(wrong: str, capsys: pytest.Capt
     assert streams.err.count("\n") == 1
 
 
-@pytest.mark.parametrize("wrong", ["", "--material plain", "--material 7", "--material b --film-ior 2"])
+@pytest.mark.parametrize(
+    "wrong", ["", "--material plain", "--material 7", "--material b --film-ior 2", "--material b --method="]
+)
 def test_wrong_questions_about_a_file_too(
     wrong: str, two_films: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     assert run(["evaluate", two_films, *wrong.split()]) == 2
     assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_choice_is_offered_only_where_there_is_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "some.gltf"
+
+    def refusal(materials: list[object], *arguments: str) -> str:
+        path.write_text(json.dumps({**TWO_FILMS, "materials": materials}), encoding="utf-8")
+        assert run(["evaluate", str(path), *arguments]) == 2
+        return capsys.readouterr().err
+
+    plain, *films = TWO_FILMS["materials"]
+    assert refusal([plain]).endswith("some.gltf has no material with a film; name another file.\n")
+    assert refusal([plain, *films]).endswith("choose one with --material from: 1 a, 2 b.\n")
+    assert refusal([plain] * 500, "--material", "x").endswith("7 plain and 492 more.\n")
