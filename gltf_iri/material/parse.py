@@ -8,11 +8,12 @@ row are ignored, and extensions without a row are collected by name.
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, Protocol, TypeVar
 
+from gltf_iri.asset.limits import MAX_NUMBER
+from gltf_iri.asset.words import shown
 from gltf_iri.errors import AssetError
 from gltf_iri.material.fields import Kind, Property, properties
 from gltf_iri.material.material import Material
@@ -87,14 +88,14 @@ class Rows:
             raise _mismatch(value, "an integer", pointer)
         index = int(value)
         if index < 0:
-            raise AssetError(f"{index} is negative; write an integer from 0 on", pointer=pointer)
+            raise AssetError(f"{shown(index)} is negative; write an integer from 0 on", pointer=pointer)
         if row.refers_to:
             entries = self._root.get(row.refers_to, [])
             count = len(entries) if isinstance(entries, list) else 0
             if index >= count:
                 have = f"has {count} entries" if count else "is empty or absent"
                 raise AssetError(
-                    f"{index} refers to nothing, '{row.refers_to}' {have}; name one that exists",
+                    f"{shown(index)} refers to nothing, '{row.refers_to}' {have}; name one that exists",
                     pointer=pointer,
                 )
         return index
@@ -103,12 +104,11 @@ class Rows:
 def _number(row: Property, value: Any, pointer: str) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise _mismatch(value, "a number", pointer)
-    try:
-        number = float(value)
-    except OverflowError:
-        number = math.inf
-    if not math.isfinite(number):
-        raise AssetError("the number is too large for a float; write a smaller one", pointer=pointer)
+    if not abs(value) <= MAX_NUMBER:
+        raise AssetError(
+            f"{shown(value)} is beyond single precision; write a smaller number", pointer=pointer
+        )
+    number = float(value)
     if number != row.also_allowed and not _is_inside(row, number):
         raise AssetError(
             f"{value} is outside {row.range_text}; write a value inside that range", pointer=pointer
@@ -157,8 +157,5 @@ def _object(value: Any, pointer: str) -> dict[str, Any]:
 
 
 def _mismatch(value: Any, wanted: str, pointer: str) -> AssetError:
-    shown = "an object" if isinstance(value, dict) else "an array"
-    if not isinstance(value, (dict, list)):
-        shown = json.dumps(value)
-    shown = shown if len(shown) <= 40 else f"{shown[:37]}…"
-    return AssetError(f"{shown} stands where {wanted} belongs; write {wanted}", pointer=pointer)
+    found = json.dumps(value) if value is None or isinstance(value, bool) else shown(value)
+    return AssetError(f"{found} stands where {wanted} belongs; write {wanted}", pointer=pointer)

@@ -6,6 +6,9 @@ import time
 from collections.abc import Collection, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gltf_iri.errors import UsageError
 from gltf_iri.material.interface import material_textures, material_uniforms
 from gltf_iri.material.material import Material
@@ -131,11 +134,12 @@ class Renderer:
             draw_primitives(framebuffer, draws, camera, is_blending=not with_inputs)
             self.context.finish()
             milliseconds = (time.perf_counter() - started) * 1000.0
+            rgba = targets.read()
             return Frame(
-                targets.read(),
+                rgba,
                 renderer_name(self.context),
                 milliseconds,
-                tuple(_notes(draws, surroundings, with_inputs=with_inputs)),
+                (*_notes(draws, surroundings, with_inputs=with_inputs), *_overflow(rgba)),
                 shading_inputs(targets) if with_inputs else None,
             )
         finally:
@@ -172,6 +176,12 @@ def _material_of(
     """Return the place of the primitive's plan among `plans`, the plan, and the material."""
     number, plan = next((i, plan) for i, plan in enumerate(plans) if plan.index == primitive.material)
     return number, plan, Material() if plan.index == DEFAULT_MATERIAL else model.materials[plan.index]
+
+
+def _overflow(rgba: NDArray[np.float32]) -> Iterable[str]:
+    count = int((~np.isfinite(rgba)).any(axis=-1).sum())
+    if count:
+        yield f"{count} pixels are beyond single precision: a light or an emission of the file is too strong."
 
 
 def _notes(draws: Sequence[Draw], surroundings: Collection[Effect], *, with_inputs: bool) -> Iterable[str]:

@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.asset.limits import MAX_NUMBER
 from gltf_iri.errors import AssetError, UsageError
 from gltf_iri.scene.framing import box_around, fit_distance, fit_eye
 from gltf_iri.scene.model import Camera, Scene
@@ -46,11 +47,22 @@ def read_camera(description: Mapping[str, Any], world: Float64, name: str, point
         if not lens["yfov"] < math.pi:
             raise AssetError("yfov must be less than π radians", pointer=where)
         aspect = lens.get("aspectRatio")
-        return Camera(name, "perspective", view, near, far, yfov_rad=lens["yfov"], aspect=aspect)
+        camera = Camera(name, "perspective", view, near, far, yfov_rad=lens["yfov"], aspect=aspect)
+        return _usable(camera, where)
     xmag, ymag = abs(lens["xmag"]), abs(lens["ymag"])
     if not (xmag > 0.0 and ymag > 0.0):
         raise AssetError("xmag and ymag must not be 0", pointer=where)
-    return Camera(name, "orthographic", view, near, far, xmag_m=xmag, ymag_m=ymag, aspect=xmag / ymag)
+    camera = Camera(name, "orthographic", view, near, far, xmag_m=xmag, ymag_m=ymag, aspect=xmag / ymag)
+    return _usable(camera, where)
+
+
+def _usable(camera: Camera, pointer: str) -> Camera:
+    """Refuse a frustum whose matrix overflows, such as a field of view of 1e-320."""
+    with np.errstate(all="ignore"):
+        matrix = projection_matrix(camera, camera.aspect or 1.0) @ camera.view
+    if not np.all(np.abs(matrix) <= MAX_NUMBER):
+        raise AssetError("the camera's numbers are beyond single precision together", pointer=pointer)
+    return camera
 
 
 def projection_matrix(camera: Camera, aspect: float) -> Float64:

@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gltf_iri.material.emissive_strength import EmissiveStrength
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
+from gltf_iri.scene.model import Light
 
 ROUGHNESSES = (0.0, 0.06, 0.125, 0.3, 0.5, 1.0)
 
@@ -60,3 +62,10 @@ def test_the_background_of_a_white_sky_is_white_and_covers_nothing(stage, props,
     frame = stage.draw(props.sphere(), metal(0.0), environment=furnace, seen_from=props.camera())
     assert np.abs(frame.rgba[0, 0] - [1.0, 1.0, 1.0, 0.0]).max() <= 2e-7
     assert frame.rgba[32, 32, 3] == 1.0
+
+
+def test_light_beyond_single_precision_is_told(stage, props):
+    blinding = Material(emissive_factor=(1.0, 1.0, 1.0), emissive_strength=EmissiveStrength(3e38))
+    sun = Light("sun", "directional", (1.0, 1.0, 1.0), 3e38, np.zeros(3), np.array([0.0, 0.0, -1.0]))
+    frame = stage.draw(props.quad(), blinding, lights=[sun], seen_from=props.camera())
+    assert any("beyond single precision" in note for note in frame.notes)

@@ -81,7 +81,13 @@ def test_a_camera_stands_where_its_node_does_whatever_the_scale():
 
 @pytest.mark.parametrize(
     ("description", "lens"),
-    [(PERSPECTIVE, {"zfar": 0.25}), (PERSPECTIVE, {"yfov": 3.2}), (ORTHOGRAPHIC, {"xmag": 0.0})],
+    [
+        (PERSPECTIVE, {"zfar": 0.25}),
+        (PERSPECTIVE, {"yfov": 3.2}),
+        (PERSPECTIVE, {"yfov": 1e-320}),  # its matrix overflows
+        (ORTHOGRAPHIC, {"xmag": 0.0}),
+        (ORTHOGRAPHIC, {"ymag": 1e-320}),
+    ],
 )
 def test_a_lens_without_a_frustum_is_refused(description, lens):
     with pytest.raises(AssetError) as caught:
