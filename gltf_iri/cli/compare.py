@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -30,7 +31,7 @@ __all__ = ["command"]
 @click.option(
     "-o",
     "--out",
-    type=click.Path(file_okay=False, path_type=Path),
+    type=click.Path(file_okay=False),
     metavar="DIR",
     help="Folder for the pictures, report.json and index.html.  [default: FILE's name + '-compared', here]",
 )
@@ -49,7 +50,7 @@ __all__ = ["command"]
 @json_option
 def command(
     file: Path,
-    out: Path | None,
+    out: str | None,
     method: str | None,
     size: tuple[int, int],
     env: str,
@@ -64,18 +65,22 @@ def command(
     """
     from gltf_iri.comparison.report import write_report
     from gltf_iri.comparison.run import STEPS, compare
-    from gltf_iri.errors import AssetError
+    from gltf_iri.errors import AssetError, UsageError
     from gltf_iri.planning.decide import plan_materials
     from gltf_iri.rendering.context import create_context
     from gltf_iri.scene.choose import choose_camera, choose_environment
     from gltf_iri.scene.load import load
 
+    if out == "":
+        raise UsageError("The name of the folder is empty; write '.' for this one.")
     environment = choose_environment(env)
     model = load(file)
     scene = model.scene()
     plans = plan_materials(model.materials, method=method)
     view = choose_camera(scene, camera, size)
-    folder = out if out is not None else Path(f"{file.stem}-compared")
+    folder = Path(f"{file.stem}-compared" if out is None else out)
+    # matplotlib warns where there is no home to keep its fonts' list in; the figures are the same.
+    logging.getLogger("matplotlib").setLevel(logging.ERROR)
     with progress("Comparing", len(STEPS) + 1) as advance:
         comparison = compare(
             create_context(),

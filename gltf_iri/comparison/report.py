@@ -20,18 +20,20 @@ __all__ = ["report_html", "write_report"]
 def write_report(comparison: Comparison, folder: Path) -> dict[str, Path]:
     """Write every file of the report into `folder` (made if missing) and return their paths by name.
 
-    Each file appears whole or not at all. Raises UsageError where the folder cannot be written to.
+    All files appear, each of them whole, or none does. Raises UsageError where the folder is not writable.
     """
     images = _images(comparison)
     report = json.dumps(_strict(comparison.to_json()), indent=2, ensure_ascii=False, allow_nan=False)
     files = {name: (f"{name}.png", data) for name, data in images.items()}
-    files["report"] = ("report.json", f"{report}\n".encode())
-    files["page"] = ("index.html", report_html(comparison, images).encode())
+    # A file's name need not be UTF-8. Its stray bytes stay readable in JSON, whose escapes these are.
+    files["report"] = ("report.json", f"{report}\n".encode(errors="backslashreplace"))
+    files["page"] = ("index.html", report_html(comparison, images).encode(errors="replace"))
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        return {name: _replace(folder / file, data) for name, (file, data) in files.items()}
+        _replace_all({folder / file: data for file, data in files.values()})
     except OSError as error:
         raise UsageError(f"'{folder}' cannot be written to: {error.strerror or error}.") from error
+    return {name: folder / file for name, (file, _) in files.items()}
 
 
 def _images(comparison: Comparison) -> dict[str, bytes]:
@@ -95,15 +97,19 @@ def _strict(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def _replace(path: Path, data: bytes) -> Path:
-    """Write beside `path`, then rename, so that a reader never sees half a file."""
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+def _replace_all(files: dict[Path, bytes]) -> None:
+    """Write all beside their places, then rename: no reader sees half a file, no failure leaves a part."""
+    unfinished: dict[Path, Path] = {}
     try:
-        with os.fdopen(handle, "wb") as stream:
-            stream.write(data)
-        Path(name).chmod(0o644)  # mkstemp keeps others out; a report is for everyone
-        Path(name).replace(path)
+        for path, data in files.items():
+            handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
+            unfinished[path] = Path(name)
+            with os.fdopen(handle, "wb") as stream:
+                stream.write(data)
+            Path(name).chmod(0o644)  # mkstemp keeps others out; a report is for everyone
+        for path, temporary in unfinished.items():
+            temporary.replace(path)
     except BaseException:
-        Path(name).unlink(missing_ok=True)
+        for temporary in unfinished.values():
+            temporary.unlink(missing_ok=True)
         raise
-    return path

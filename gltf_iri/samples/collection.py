@@ -51,14 +51,20 @@ def collection_files() -> Mapping[str, bytes]:
 def write_samples(folder: Path) -> list[Path]:
     """Write the collection into `folder` and return the paths written; an earlier collection is replaced.
 
-    Raises UsageError where `folder` holds something else: files that are not ours are never overwritten.
+    Raises UsageError where `folder` cannot be written to or holds something else: files that are not ours
+    are never overwritten.
     """
     if folder.exists() and not folder.is_dir():
         raise UsageError(f"{folder} is not a folder: name another one.")
     if folder.is_dir() and any(folder.iterdir()) and not _is_ours(folder / _INDEX):
         raise UsageError(f"{folder} holds other files than the samples: name an empty folder.")
     files = collection_files()
-    return [_write(folder / name, files[name]) for name in files]
+    try:
+        return [_write(folder / name, files[name]) for name in files]
+    except OSError as error:
+        raise UsageError(
+            f"{folder} cannot be written to ({error.strerror or error}): name another folder."
+        ) from error
 
 
 def _is_ours(index: Path) -> bool:
@@ -73,10 +79,15 @@ def _write(path: Path, content: bytes) -> Path:
     """Write all of a file or nothing, so that an interrupted run leaves no half of a sample."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as unfinished:
-        unfinished.write(content)
-    temporary = Path(unfinished.name)
-    temporary.chmod(0o666 & ~_umask())
-    return temporary.replace(path)
+        temporary = Path(unfinished.name)
+        try:
+            unfinished.write(content)
+            unfinished.flush()
+            temporary.chmod(0o666 & ~_umask())
+            return temporary.replace(path)
+        except BaseException:
+            temporary.unlink(missing_ok=True)
+            raise
 
 
 def _umask() -> int:

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import re
+from dataclasses import replace
 
 import jsonschema
 import pytest
 
 from gltf_iri.comparison.report import report_html, write_report
+from gltf_iri.errors import UsageError
 from gltf_iri.resources import spec_root
 
 HOSTILE = """<script>alert(1)</script>" onload='x' {{ 7*7 }} <img src=http://x.example/>"""
@@ -33,6 +37,32 @@ def test_every_file_is_there_and_nothing_is_left_over(written) -> None:
     assert {path.name for path in folder.iterdir()} == {path.name for path in paths.values()}
     for name in ("glsl", "python", "truth", "difference_glsl_python", "difference_method_truth"):
         assert paths[name].read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_full_disk_leaves_the_report_before_as_it_was(written, judged, monkeypatch) -> None:
+    folder = written[1]["report"].parent
+    before = {path: path.read_bytes() for path in folder.iterdir()}
+    opened = []
+
+    def fdopen(handle, mode):
+        opened.append(handle)
+        if len(opened) == len(before):
+            os.close(handle)
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return os_fdopen(handle, mode)
+
+    os_fdopen = os.fdopen
+    monkeypatch.setattr(os, "fdopen", fdopen)
+    with pytest.raises(UsageError, match="cannot be written to: No space left on device"):
+        write_report(judged(name="another"), folder)
+    assert {path: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_a_file_whose_name_is_not_utf_8_is_reported(judged, tmp_path) -> None:
+    name = os.fsdecode(b"caf\xe9.glb")
+    paths = write_report(replace(judged(), file=name), tmp_path)
+    assert json.loads(paths["report"].read_text(encoding="utf-8"))["file"] == name
+    assert "caf?.glb" in paths["page"].read_text(encoding="utf-8")
 
 
 def test_a_hostile_material_name_stays_text(written) -> None:

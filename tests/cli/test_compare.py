@@ -1,0 +1,32 @@
+"""`gltf-iri compare` on the command line; its figures are held in tests/comparison."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from gltf_iri.cli.main import run
+
+ROOT = Path(__file__).resolve().parents[2]
+PEARL = ROOT / "samples" / "pearl" / "pearl.glb"
+
+
+def test_an_empty_folder_name_does_not_scatter_files_here(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert run(["compare", str(PEARL), "-o", ""]) == 2
+    assert capsys.readouterr().err == "gltf-iri: The name of the folder is empty; write '.' for this one.\n"
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_user_without_a_home_reads_no_warnings(gl_context, tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-m", "gltf_iri", "compare", PEARL, "-o", tmp_path, "--size", "24x16"],
+        cwd=ROOT,
+        env={**os.environ, "MPLCONFIGDIR": os.devnull + "/none"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert (done.returncode, done.stderr) == (0, "")
