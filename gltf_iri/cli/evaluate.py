@@ -80,7 +80,7 @@ def command(
 ) -> None:
     """Print the film's reflectance colour, linear Rec.709, at the outside angle's cosines.
 
-    Either of a material of FILE, at its largest thickness and without its textures, or of a film given by
+    Either of a material of FILE, at its thickness maximum and without its textures, or of a film given by
     options. Colours are not cut to the gamut: the truth may be negative in a channel.
     """
     if file is None:
@@ -149,6 +149,7 @@ def _from_file(
     done = evaluate_material(materials[index], plan, cosines, thickness_nm=given["thickness"], white=white)
     result = _result(cosines, done.film)
     result |= {"material": plan.name, "index": index, "thickness_nm": done.thickness_nm}
+    result |= {"thickness_range_nm": done.thickness_range_nm, "factor": done.factor}
     if layered:
         result |= {"specular": done.layer.specular, "base_weight": done.layer.base_weight}
     return result
@@ -202,7 +203,9 @@ def _print(result: dict[str, Any]) -> None:
     title = f"{result['method']}, {result['white']} white, linear Rec.709"
     if "material" in result:
         label = material_label(result["index"], result["material"])
-        title += f"; material {label}, {result['thickness_nm']:g} nm"
+        low_nm, high_nm = result["thickness_range_nm"]
+        of_range = "" if low_nm == high_nm else f" of {low_nm:g} to {high_nm:g}"
+        title += f"; material {label}, {result['thickness_nm']:g} nm{of_range}, factor {result['factor']:g}"
     print_table(columns, rows, title=title)
     for case, where in result["undefined"].items():
         note(f"the text leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")

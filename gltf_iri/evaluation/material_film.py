@@ -21,6 +21,7 @@ from gltf_iri.optics.layering import (
     iridescent_dielectric_layer,
     iridescent_dielectric_layer_specular,
 )
+from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 
 __all__ = ["MaterialFilm", "evaluate_material"]
@@ -35,11 +36,15 @@ class MaterialFilm:
     film : the film's own reflectance at full strength; metal and dielectric mixed by metalness.
     layer : specular reflectance (..., 3) with the film's factor in it, and the base's weight (...) below it.
     thickness_nm : the thickness that was evaluated.
+    thickness_range_nm : what the thickness texture's 0 and 1 stand for; without texture twice the maximum.
+    factor : the film's strength in `layer`, which a texture may lower.
     """
 
     film: Evaluation
     layer: Layer
     thickness_nm: float
+    thickness_range_nm: tuple[float, float]
+    factor: float
 
 
 def evaluate_material(
@@ -61,6 +66,8 @@ def evaluate_material(
         )
     iridescence = material.iridescence
     thickness = iridescence.thickness_max_nm if thickness_nm is None else thickness_nm
+    is_textured = plan.calls_for(Effect.IRIDESCENCE_THICKNESS_TEXTURE)
+    at_zero_nm = iridescence.thickness_min_nm if is_textured else iridescence.thickness_max_nm
     specular = material.specular or Specular()
     metalness = material.pbr.metallic_factor
     cosine = np.asarray(cos_theta, dtype=np.float64)
@@ -88,6 +95,8 @@ def evaluate_material(
         film=_mixed(over_dielectric, over_metal, metalness),
         layer=Layer(_by_metalness(layer.specular, metal, metalness), (1.0 - metalness) * layer.base_weight),
         thickness_nm=thickness,
+        thickness_range_nm=(at_zero_nm, iridescence.thickness_max_nm),
+        factor=iridescence.factor,
     )
 
 

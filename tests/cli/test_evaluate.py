@@ -63,6 +63,7 @@ def test_material_is_chosen_by_name_or_number(two_films: str, capsys: pytest.Cap
     by_number = answer(capsys, two_films, "--material", "2")
     assert by_name == by_number
     assert by_name["material"] == "b"
+    assert (by_name["factor"], by_name["thickness_range_nm"]) == (1.0, [400.0, 400.0])
 
 
 def test_layered_adds_specular_and_base_weight(two_films: str, capsys: pytest.CaptureFixture[str]) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,6 +15,7 @@ from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.material.specular import Specular
+from gltf_iri.material.texture import TextureInfo
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.planning.decide import plan_material
 
@@ -73,6 +76,16 @@ def test_given_thickness_replaces_the_maximum() -> None:
     other = evaluate_material(subject, plan, COSINES, thickness_nm=200.0)
     expected = evaluate("khr-guarded", Film.of(COSINES, 200.0, 1.8, base_from_ior(1.5))).rgb
     assert np.abs(other.film.rgb - expected).max() <= 1e-12
+
+
+def test_the_range_is_the_textures_also_where_the_minimum_is_the_larger() -> None:
+    falling = Iridescence(factor=0.5, thickness_min_nm=500.0, thickness_max_nm=200.0)
+    textured = replace(falling, thickness_texture=TextureInfo(texture=0))
+    for film, expected in ((falling, (200.0, 200.0)), (textured, (500.0, 200.0))):
+        subject = material(0.0, iridescence=film)
+        done = evaluate_material(subject, plan_material(subject, 0), COSINES)
+        assert done.thickness_range_nm == expected
+        assert (done.thickness_nm, done.factor) == (200.0, 0.5)
 
 
 def test_material_without_film_is_refused() -> None:
