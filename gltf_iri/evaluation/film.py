@@ -31,6 +31,10 @@ Dispersion = Callable[[Float64], NDArray[np.complex128] | Float64]
 # Stands for a dispersive film in methods that know one index only: helium's d line.
 _REFERENCE_NM = 587.56
 
+# Beyond any matter and any film, and so near to them that no square, product or ratio of two overflows.
+_INDEX_MAX = 1e6
+_THICKNESS_MAX_NM = 1e12
+
 
 @dataclass(frozen=True, slots=True)
 class Base:
@@ -98,8 +102,10 @@ def index_by_wavelength(dispersion: Dispersion, wavelength_nm: Float64) -> Compl
 
 def _checked_index(index: ArrayLike) -> Complex128:
     checked = np.asarray(index, dtype=np.complex128)
-    if not np.all((checked.real >= 0.0) & (checked.imag >= 0.0) & np.isfinite(checked)):
-        raise UsageError("The base index n + ik wants finite n ≥ 0 and k ≥ 0 (waves are exp(−iωt)).")
+    if not np.all((checked.real >= 0.0) & (checked.imag >= 0.0) & (np.abs(checked) <= _INDEX_MAX)):
+        raise UsageError(
+            f"The base index n + ik wants n ≥ 0 and k ≥ 0, at most {_INDEX_MAX:g} (waves are exp(−iωt))."
+        )
     return checked
 
 
@@ -145,10 +151,12 @@ class Film:
         cosine, thickness, film, outside = arrays
         if not np.all((cosine >= 0.0) & (cosine <= 1.0)):
             raise UsageError("The cosine of the outside angle must lie in [0, 1].")
-        if not np.all((thickness >= 0.0) & np.isfinite(thickness)):
-            raise UsageError("The film thickness must be a finite number of nanometres, not negative.")
-        if not np.all((film > 0.0) & (outside > 0.0) & np.isfinite(film) & np.isfinite(outside)):
-            raise UsageError("The refractive indices of film and outside must be positive and finite.")
+        if not np.all((thickness >= 0.0) & (thickness <= _THICKNESS_MAX_NM)):
+            raise UsageError(f"The film thickness must lie in [0, {_THICKNESS_MAX_NM:g}] nanometres.")
+        if not all(np.all((index >= 1.0 / _INDEX_MAX) & (index <= _INDEX_MAX)) for index in (film, outside)):
+            raise UsageError(
+                f"The refractive indices of film and outside must lie in [{1 / _INDEX_MAX:g}, {_INDEX_MAX:g}]."
+            )
         return cls(cosine, thickness, film, base, outside, film_ior_at)
 
     @property

@@ -50,6 +50,9 @@ def test_unknown_names_are_refused() -> None:
         {"film_ior": 0.0},
         {"film_ior": np.nan},
         {"outside_ior": -1.0},
+        {"thickness_nm": 1e300},
+        {"film_ior": 1e200},
+        {"outside_ior": 1e-300},
     ],
 )
 def test_films_that_cannot_be_are_refused(bad: dict[str, float]) -> None:
@@ -62,6 +65,16 @@ def test_bases_that_cannot_be_are_refused() -> None:
     for f0 in ([0.1, 0.2], [-0.1, 0, 0], [0, 0, 1.1], [0, 0, np.nan]):
         with pytest.raises(UsageError):
             base_from_f0(f0)
-    for index in (-1.0, 1.5 - 0.1j, np.nan, np.inf):
+    for index in (-1.0, 1.5 - 0.1j, np.nan, np.inf, 1e200):
         with pytest.raises(UsageError):
             base_from_ior(index)
+
+
+@pytest.mark.parametrize("name", ["khr", "khr-guarded"])
+@pytest.mark.parametrize("extreme", [1e-6, 1e6])
+def test_the_most_extreme_film_still_has_a_colour(name: str, extreme: float) -> None:
+    for film_ior, outside_ior, base_ior in ((extreme, 1, 1.5), (1.3, extreme, 1.5), (1.3, 1, extreme)):
+        film = Film.of([1e-300, 1.0], 1e12, film_ior, base_from_ior(base_ior), outside_ior)
+        evaluation = evaluate(name, film)  # without a warning, which would be an error here
+        undefined = np.logical_or.reduce([*evaluation.undefined.values(), np.zeros(2, bool)])
+        assert np.all(np.isfinite(evaluation.rgb).all(axis=-1) | undefined)
