@@ -31,7 +31,7 @@ Dispersion = Callable[[Float64], NDArray[np.complex128] | Float64]
 # Stands for a dispersive film in methods that know one index only: helium's d line.
 _REFERENCE_NM = 587.56
 
-# Beyond any matter and any film, and so near to them that no square, product or ratio of two overflows.
+# Beyond any matter and any film, yet so small that no square, product or ratio of two overflows.
 _INDEX_MAX = 1e6
 _THICKNESS_MAX_NM = 1e12
 
@@ -155,7 +155,7 @@ class Film:
             raise UsageError(f"The film thickness must lie in [0, {_THICKNESS_MAX_NM:g}] nanometres.")
         if not all(np.all((index >= 1.0 / _INDEX_MAX) & (index <= _INDEX_MAX)) for index in (film, outside)):
             raise UsageError(
-                f"The refractive indices of film and outside must lie in [{1 / _INDEX_MAX:g}, {_INDEX_MAX:g}]."
+                f"The indices of film and outside must lie in [{1.0 / _INDEX_MAX:g}, {_INDEX_MAX:g}]."
             )
         return cls(cosine, thickness, film, base, outside, film_ior_at)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from os import PathLike
+import os
 
 from gltf_iri.errors import UsageError
 from gltf_iri.scene.camera import frame_scene
@@ -26,12 +26,19 @@ def choose_camera(scene: Scene, index: int | None, size: tuple[int, int]) -> Cam
     return scene.cameras[index]
 
 
-def choose_environment(name: str | PathLike[str]) -> Environment | None:
+def choose_environment(name: str | os.PathLike[str]) -> Environment | None:
     """Return "studio" or "white" as made here, None for "none", and for anything else the map of that file.
 
-    A file by one of these names is reached as "./studio". Raises what `read_environment` raises.
+    A file by one of these names is reached as "./studio". Raises UsageError where there is no such file, and
+    what `read_environment` raises.
     """
     if str(name) == "none":
         return None
     made = {"studio": studio, "white": white}.get(str(name))
-    return read_environment(name) if made is None else made()
+    if made is not None:
+        return made()
+    if not os.path.lexists(name):
+        raise UsageError(
+            f"There is no environment '{name}': name a .hdr or .exr file, studio, white or none."
+        )
+    return read_environment(name)
