@@ -1,6 +1,7 @@
 """Reference implementation of KHR_materials_iridescence: evaluator, renderer and spectral truth for glTF.
 
-The Python face is four functions. Importing the package imports none of the machinery behind them.
+The Python face is four functions; the errors they raise stand in `gltf_iri.errors`. Importing the package
+imports none of the machinery behind them.
 
 >>> import gltf_iri
 >>> gltf_iri.evaluate("spectral", cos_theta_1=1.0, thickness_nm=0.0, base_ior=1.5).rgb.round(6).tolist()

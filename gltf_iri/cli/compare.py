@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +19,7 @@ from gltf_iri.cli.common import (
     print_table,
     progress,
 )
-from gltf_iri.cli.picture_options import SIZE, exposure_option
+from gltf_iri.cli.picture_options import EMPTY_PICTURE, SIZE, exposure_option
 
 if TYPE_CHECKING:
     from gltf_iri.comparison.result import Comparison
@@ -94,6 +95,8 @@ def command(
             white=white,
             advance=advance,
         )
+        if not comparison.materials:
+            comparison = replace(comparison, notes=(*comparison.notes, EMPTY_PICTURE))
         paths = write_report(comparison, folder)
         advance()
     _tell(comparison, paths, as_json=as_json)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import click
 
-__all__ = ["SIZE", "exposure_option"]
+__all__ = ["EMPTY_PICTURE", "SIZE", "exposure_option"]
+
+EMPTY_PICTURE = "Nothing of the model is in the picture: it lies out of the camera's sight or has no extent."
 
 _EXPOSURE_MAX = 64.0  # 2^64 and 2^-64 are far beyond any light and well inside float32
 

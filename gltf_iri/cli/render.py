@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from gltf_iri.cli.common import file_argument, json_option, note, print_json, progress
-from gltf_iri.cli.picture_options import SIZE, exposure_option
+from gltf_iri.cli.picture_options import EMPTY_PICTURE, SIZE, exposure_option
 
 if TYPE_CHECKING:
     from gltf_iri.planning.material_plan import MaterialPlan
@@ -82,6 +82,8 @@ def command(
     notes = dict.fromkeys(
         (*model.notes, *scene.notes, *(environment.notes if environment else ()), *frame.notes)
     )
+    if not frame.rgba[..., 3].any():
+        notes[EMPTY_PICTURE] = None
     if as_json:
         print_json(
             {

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import os
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +12,7 @@ from pathlib import Path
 from gltf_iri.cli.main import run
 
 ROOT = Path(__file__).resolve().parents[2]
+OIL = ROOT / "samples" / "oil-on-metal"
 PEARL = ROOT / "samples" / "pearl" / "pearl.glb"
 
 
@@ -30,3 +33,16 @@ def test_a_user_without_a_home_reads_no_warnings(gl_context, tmp_path):
         check=False,
     )
     assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_an_empty_picture_is_told(gl_context, tmp_path, capsys):
+    gltf = json.loads((OIL / "oil-on-metal.gltf").read_text())
+    for node in gltf["nodes"]:
+        if "mesh" in node:
+            node["scale"] = [0, 0, 0]
+    shutil.copytree(OIL, tmp_path / "oil")
+    flat = tmp_path / "oil" / "flat.gltf"
+    flat.write_text(json.dumps(gltf))
+    assert run(["compare", str(flat), "-o", str(tmp_path / "out"), "--size", "24x16"]) == 0
+    assert "note: Nothing of the model is in the picture" in capsys.readouterr().err
+    assert "Nothing of the model" in (tmp_path / "out" / "report.json").read_text()

@@ -45,6 +45,16 @@ def triangle(tmp_path):
     return path
 
 
+def test_an_empty_picture_is_told(gl_context, triangle, tmp_path, capsys):
+    gltf = json.loads(triangle.read_text())
+    gltf["cameras"] = [{"type": "perspective", "perspective": {"yfov": 0.5, "znear": 0.1}}]
+    gltf["nodes"].append({"camera": 0, "translation": [0, 0, -5]})  # looks away, along -z
+    gltf["scenes"][0]["nodes"].append(1)
+    triangle.write_text(json.dumps(gltf))
+    assert run(["render", str(triangle), "-o", str(tmp_path / "a.png"), "--size", "32x24"]) == 0
+    assert "note: Nothing of the model is in the picture" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize("name", ["out.png", "out.exr"])
 def test_json_tells_what_was_drawn(gl_context, triangle, tmp_path, capsys, name):
     out = tmp_path / name
