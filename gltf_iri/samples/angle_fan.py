@@ -50,8 +50,8 @@ def build() -> Sample:
             "thinner film, because the path inside shortens, and pales at 80°, where every surface "
             "becomes a mirror.\n\n"
             "The patches are long in depth so that each looks equally wide, and the camera's rays "
-            "are parallel, so one patch is one angle. Draw it with `--env white`: then a patch's "
-            "colour is its reflectance and nothing else, since the base is black."
+            "are parallel, so one patch is one angle. Draw it with `--env white --tonemap none`: "
+            "then a patch's colour is its reflectance and nothing else, since the base is black."
         ),
         sources=(
             "Film index 1.9 over 1.5, a black base: chosen for strong colours, no material in "

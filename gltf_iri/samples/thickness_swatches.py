@@ -65,7 +65,7 @@ def build() -> Sample:
             "Each swatch has one texture coordinate, the centre of its own texel, and the texture is "
             "not filtered: 4 counts of 8 bits a swatch, 4 nm a count, so every thickness is exact. "
             "The camera's rays are parallel, so the angle is 0 everywhere; draw it with `--env "
-            "white` to see the film alone."
+            "white --tonemap none` to see the film's reflectance and nothing else."
         ),
         sources=(
             "Base colour: reflectance of silicon from n and k of Schinke and others, AIP Adv. 5, "
