@@ -34,13 +34,14 @@ LAYER_COUNT: Final = 8  # perceptual roughness ⅛, ¼ … 1; the map itself sta
 
 # Narrow lobes are sampled and want many texels; wide ones are integrated over a small level, without noise.
 SMOOTH_LAYER_COUNT: Final = 3
-_SMOOTH_SIZE: Final = (256, 128)
+_SMOOTH_SIZE: Final = (192, 96)
 _ROUGH_SIZE: Final = (64, 32)
 _ROUGH_SOURCE_HEIGHT: Final = 32
 
-_SAMPLES: Final = 256
-# The samples are spread evenly enough for each to average over half of its share: less blur at no more noise.
-_SHARE_AVERAGED: Final = 0.5
+_SAMPLES: Final = 512
+# Each sample averages over twice its share: neighbours overlap, or a small bright lamp would show as a ring
+# of separate images of itself. The blur that this adds is less than the step between two layers.
+_SHARE_AVERAGED: Final = 2.0
 
 _DFG_SIZE: Final = (128, 128)
 
