@@ -82,7 +82,7 @@ def evaluate(
     white : "D65" or "E".
 
     At most one of the three bases; without any, glTF's default index 1.5. Raises UsageError for an unknown
-    method or white, for two bases and for values out of range.
+    method or white, for two bases, for values out of range and for shapes that do not broadcast.
     """
     from gltf_iri.evaluation.film import Film
     from gltf_iri.evaluation.registry import evaluate as evaluate_film
@@ -113,7 +113,7 @@ def render(
     camera : a camera, an index of the scene's, or None for its first or, without any, to frame it.
     environment : image light and background: "studio", "white", a .hdr or .exr file, or None for neither.
     method : name of the film method; None leaves the choice to the plan.
-    samples : per pixel.
+    samples : per pixel, a power of two; 1 for its centre alone.
 
     Raises AssetError where geometry or images are broken, UsageError for a camera, file, size or method that
     does not exist or cannot be drawn, MissingCapabilityError where the machine has no OpenGL.

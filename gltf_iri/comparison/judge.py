@@ -18,7 +18,8 @@ from gltf_iri.comparison.metric import Agreement, ColourError, agreement, colour
 from gltf_iri.comparison.pixels import Pixels, gather
 from gltf_iri.comparison.result import Comparison, MaterialResult, PictureResult, Pictures, Split
 from gltf_iri.comparison.shade import FilmMethod, shade
-from gltf_iri.errors import UsageError
+from gltf_iri.errors import AssetError, UsageError
+from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
@@ -106,7 +107,13 @@ def _judge_material(
 ) -> MaterialResult:
     """Shade one material's pixels with its method and with truth; writes into `pictures` and `compared`."""
     film_ior, method, truth = _film_of(shot, plan)
-    mine = shade(pixels, plan, film_ior, shot.lights, method)
+    try:
+        mine = shade(pixels, plan, film_ior, shot.lights, method)
+    except UsageError as error:  # legal in glTF, but no film: 10^30 nm
+        what = str(error).rstrip(".")
+        raise AssetError(
+            what, pointer=f"/materials/{plan.index}/extensions/{Iridescence.EXTENSION}"
+        ) from None
     pictures.python[mask] = mine.rgb
     left_out = _left_out(mine.undefined, mine.rgb, pictures.glsl[mask])
     compared[mask] = ~left_out

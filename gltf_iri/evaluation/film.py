@@ -135,7 +135,7 @@ class Film:
         base: Base,
         outside_ior: ArrayLike = 1.0,
     ) -> Film:
-        """Check the ranges and return the film; raises UsageError where a value is out of range or NaN.
+        """Check ranges and shapes and return the film; UsageError for values out of range and NaN.
 
         A callable `film_ior` is a dispersive film, real at every wavelength; methods with one index take the
         one at 587.56 nm.
@@ -157,7 +157,15 @@ class Film:
             raise UsageError(
                 f"The indices of film and outside must lie in [{1.0 / _INDEX_MAX:g}, {_INDEX_MAX:g}]."
             )
-        return cls(cosine, thickness, film, base, outside, film_ior_at)
+        checked = cls(cosine, thickness, film, base, outside, film_ior_at)
+        try:
+            checked.shape  # noqa: B018  (asked for its error)
+        except ValueError:
+            shapes = ", ".join(str(a.shape) for a in (*arrays, base.f0[..., 0]))
+            raise UsageError(
+                f"Cosine, thickness, film index, outside index and base do not broadcast: {shapes}."
+            ) from None
+        return checked
 
     @property
     def shape(self) -> tuple[int, ...]:

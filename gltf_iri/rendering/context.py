@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any, Final
 
 from gltf_iri.errors import MissingCapabilityError
@@ -22,6 +23,8 @@ def create_context() -> moderngl.Context:
     """
     import moderngl
 
+    # A failure is told below in one sentence; Mesa would write five lines before it.
+    os.environ.setdefault("EGL_LOG_LEVEL", "fatal")
     backend: Any = "egl"  # moderngl's own annotation of this keyword is wrong
     try:
         return moderngl.create_context(standalone=True, backend=backend, require=GLSL_VERSION_CODE)

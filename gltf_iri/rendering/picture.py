@@ -35,7 +35,9 @@ def check_picture_path(path: str | PathLike[str]) -> Path:
         raise UsageError(f"A picture is a {' or '.join(_WRITERS)} file, and '{place.name}' is neither.")
     if not place.parent.is_dir():
         raise UsageError(f"There is no folder '{place.parent}' to write '{place.name}' into; make it first.")
-    if place.is_dir() or not os.access(place.parent, os.W_OK):
+    if place.is_dir():
+        raise UsageError(f"'{place}' is a folder; name a file to write.")
+    if not os.access(place.parent, os.W_OK):
         raise UsageError(f"'{place}' cannot be written: choose a file in a folder that you may write to.")
     return place
 

@@ -24,6 +24,8 @@ MAX_PIXELS: Final = 7680 * 4320
 
 def check_size(context: moderngl.Context, size: tuple[int, int], samples: int) -> None:
     """Raise UsageError for a size that cannot be drawn, MissingCapabilityError for too many samples."""
+    if samples < 0 or samples.bit_count() > 1:
+        raise UsageError(f"{samples} samples a pixel are not to be had: ask for 1, 2, 4 or 8.")
     limit = min(context.info["GL_MAX_RENDERBUFFER_SIZE"], *context.info["GL_MAX_VIEWPORT_DIMS"])
     width, height = size
     if not (1 <= width <= limit and 1 <= height <= limit and width * height <= MAX_PIXELS):
@@ -41,13 +43,20 @@ class Targets:
     """Framebuffers of float32 RGBA colour and depth; `count` of them, multisampled where samples > 1."""
 
     def __init__(self, context: moderngl.Context, size: tuple[int, int], *, samples: int, count: int) -> None:
+        import moderngl
+
         self._context = context
         samples = samples if samples > 1 else 0
-        colours = [context.renderbuffer(size, 4, samples=samples, dtype="f4") for _ in range(count)]
-        self._drawn = context.framebuffer(colours, context.depth_renderbuffer(size, samples=samples))
         self._resolved: moderngl.Framebuffer | None = None
-        if samples:
-            self._resolved = context.framebuffer([context.renderbuffer(size, 4, dtype="f4")])
+        try:
+            colours = [context.renderbuffer(size, 4, samples=samples, dtype="f4") for _ in range(count)]
+            self._drawn = context.framebuffer(colours, context.depth_renderbuffer(size, samples=samples))
+            if samples:
+                self._resolved = context.framebuffer([context.renderbuffer(size, 4, dtype="f4")])
+        except moderngl.Error as error:  # what a driver without memory says
+            raise MissingCapabilityError(
+                f"This OpenGL has no room for {size[0]} × {size[1]} pixels; choose a smaller size."
+            ) from error
 
     def begin(self) -> moderngl.Framebuffer:
         """Return what to draw into, in use and cleared: colour 0, coverage 0, farthest depth."""

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.comparison.methods import BRANCH
+from gltf_iri.errors import AssetError
 from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.tolerances import GLSL_PIXEL_RELATIVE
@@ -66,3 +68,9 @@ def test_pixels_on_a_branch_of_the_text_are_left_out_and_counted(judged) -> None
     assert material.left_out == 16
     assert material.glsl_vs_python.all.pixels == 0
     assert material.undefined[BRANCH] == 16
+
+
+def test_a_film_of_the_file_that_no_method_takes_is_an_error_of_the_file(judged) -> None:
+    with pytest.raises(AssetError, match="thickness") as caught:
+        judged(iridescence_thickness_nm=1e30)
+    assert caught.value.pointer == "/materials/0/extensions/KHR_materials_iridescence"

@@ -85,3 +85,9 @@ def test_a_full_disk_becomes_a_sentence(tmp_path, frame, monkeypatch):
     with pytest.raises(UsageError, match="No space left"):
         write_picture(tmp_path / "a.png", frame)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_folder_in_the_pictures_place_is_called_a_folder(tmp_path, frame):
+    (tmp_path / "a.png").mkdir()
+    with pytest.raises(UsageError, match="is a folder"):
+        write_picture(tmp_path / "a.png", frame)
