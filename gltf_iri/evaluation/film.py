@@ -159,7 +159,7 @@ class Film:
             )
         checked = cls(cosine, thickness, film, base, outside, film_ior_at)
         try:
-            checked.shape  # noqa: B018  (asked for its error)
+            _ = checked.shape
         except ValueError:
             shapes = ", ".join(str(a.shape) for a in (*arrays, base.f0[..., 0]))
             raise UsageError(
