@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 import tarfile
+import tomllib
 import zipfile
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,6 +15,8 @@ from pathlib import Path
 
 import moderngl
 import pytest
+
+import gltf_iri
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -58,18 +61,20 @@ def installed(built: Built, tmp_path_factory: pytest.TempPathFactory) -> Program
     return run
 
 
-def test_wheel_holds_the_package_and_what_it_reads_at_run_time(built: Built) -> None:
+def test_wheel_holds_the_package_and_what_it_needs_beside_it_but_no_figures(built: Built) -> None:
     names = set(zipfile.ZipFile(built.wheel).namelist())
-    shipped = {
-        f"gltf_iri/_shipped/{path.relative_to(ROOT).as_posix()}"
-        for folder in ("shaders", "spec")
-        for path in (ROOT / folder).rglob("*")
-        if path.is_file()
-    }
-    assert shipped <= names
+    needed = [path for path in (ROOT / "shaders").rglob("*") if path.is_file()]
+    needed += [path for path in (ROOT / "spec").iterdir() if path.is_file()]
+    shipped = {f"gltf_iri/_shipped/{path.relative_to(ROOT).as_posix()}" for path in needed}
+    assert {name for name in names if name.startswith("gltf_iri/_shipped/")} == shipped
     assert "gltf_iri/py.typed" in names
     tops = {name.split("/")[0] for name in names}
     assert {top for top in tops if not top.endswith(".dist-info")} == {"gltf_iri"}
+
+
+def test_the_version_is_stated_once(built: Built) -> None:
+    assert built.wheel.name.split("-")[1] == gltf_iri.__version__
+    assert "version" not in tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 
 
 def test_archive_holds_what_a_developer_needs_and_nothing_made(built: Built) -> None:
