@@ -11,10 +11,12 @@ stderr and leaves with the exit code; a traceback is a bug.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import ClassVar
 
-__all__ = ["AssetError", "GltfIriError", "MissingCapabilityError", "UsageError"]
+__all__ = ["AssetError", "GltfIriError", "MissingCapabilityError", "UsageError", "naming_file"]
 
 
 class GltfIriError(Exception):
@@ -31,7 +33,7 @@ class AssetError(GltfIriError):
     what : what is wrong and what to do, without a final full stop.
     pointer : JSON Pointer to the offending value, such as ``/accessors/3/count``.
     offset : byte offset into a GLB, where there is no pointer.
-    file : the file that is read; readers deep inside the asset leave it out and the door adds it.
+    file : the file that is read. Most readers do not know it: their callers add it with `naming_file`.
     """
 
     exit_code = 1
@@ -66,3 +68,14 @@ class MissingCapabilityError(GltfIriError):
     """The machine lacks something; the message says what to install."""
 
     exit_code = 3
+
+
+@contextmanager
+def naming_file(path: Path) -> Iterator[None]:
+    """Add `path` to every AssetError of the block that does not name a file yet."""
+    try:
+        yield
+    except AssetError as error:
+        if error.file is None:
+            error.file = path
+        raise

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -20,7 +19,7 @@ from gltf_iri.asset.strict_json import parse_json
 from gltf_iri.asset.structure import check_structure
 from gltf_iri.asset.texture import Texture, read_texture
 from gltf_iri.asset.words import shown
-from gltf_iri.errors import AssetError
+from gltf_iri.errors import AssetError, naming_file
 
 if TYPE_CHECKING:
     import pygltflib
@@ -50,10 +49,15 @@ class Document:
         self._accessors: dict[int, NDArray[np.generic]] = {}
         self._images: dict[int, Image] = {}
 
+    @property
+    def file_bytes(self) -> int:
+        """Size of the files and data URIs that have been read so far, pictures not counted."""
+        return self._budget.file_bytes
+
     def buffer(self, index: int) -> memoryview:
         """Bytes of a buffer, exactly its byteLength of them."""
         if index not in self._buffers:
-            with _naming(self.path):
+            with naming_file(self.path):
                 self._buffers[index] = self._read_buffer(index)
         return self._buffers[index]
 
@@ -64,7 +68,7 @@ class Document:
         file's own integer type.
         """
         if index not in self._accessors:
-            with _naming(self.path):
+            with naming_file(self.path):
                 description = self.json["accessors"][index]
                 pointer = f"/accessors/{index}"
                 self._accessors[index] = read_accessor(description, pointer, self._view, self._budget)
@@ -73,7 +77,7 @@ class Document:
     def image(self, index: int) -> Image:
         """Pixels of an image, uint8 RGBA (height, width, 4)."""
         if index not in self._images:
-            with _naming(self.path):
+            with naming_file(self.path):
                 data, declared = self._image_bytes(index)
                 name = self.json["images"][index].get("name", "")
                 image, notes = decode_image(data, declared, name, f"/images/{index}", self._budget)
@@ -83,7 +87,7 @@ class Document:
 
     def texture(self, index: int) -> Texture:
         """Image and sampler of a texture, defaults filled in."""
-        with _naming(self.path):
+        with naming_file(self.path):
             return read_texture(self.json, index)
 
     def to_pygltflib(self) -> pygltflib.GLTF2:
@@ -94,7 +98,7 @@ class Document:
         """
         from gltf_iri.asset.object_model import to_pygltflib
 
-        with _naming(self.path):
+        with naming_file(self.path):
             images = {i: self._image_bytes(i)[0] for i in _with_uri(self.json.get("images", []))}
             buffers = {i: bytes(self.buffer(i)) for i in _with_uri(self.json.get("buffers", []))}
             return to_pygltflib(self.json, buffers, images, self._binary)
@@ -153,7 +157,7 @@ class Document:
                 self.notes.append(f"{pointer}: the media type {shown(media_type)} is none of a buffer.")
         else:
             data = read_inside(self.path.parent, uri, pointer, MAX_FILE_BYTES)
-        self._budget.spend(len(data), pointer)
+        self._budget.spend_on_file(len(data), pointer)
         return data
 
 
@@ -164,10 +168,10 @@ def open_document(path: str | PathLike[str]) -> Document:
     pointer or byte offset if it is broken.
     """
     place = Path(path)
-    with _naming(place):
+    with naming_file(place):
         data = read_given(place, MAX_FILE_BYTES)
         budget = Budget()
-        budget.spend(len(data), "")
+        budget.spend_on_file(len(data), "")
         notes: list[str] = []
         binary, start = None, 0
         text: bytes | memoryview = data
@@ -182,14 +186,3 @@ def open_document(path: str | PathLike[str]) -> Document:
 
 def _with_uri(entries: Sequence[Mapping[str, Any]]) -> list[int]:
     return [index for index, entry in enumerate(entries) if "uri" in entry]
-
-
-@contextmanager
-def _naming(path: Path) -> Iterator[None]:
-    """Add the file to errors of the readers, which do not know it."""
-    try:
-        yield
-    except AssetError as error:
-        if error.file is None:
-            error.file = path
-        raise

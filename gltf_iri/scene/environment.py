@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from gltf_iri.asset.guard import read_given
 from gltf_iri.asset.limits import MAX_IMAGE_FILE_BYTES
-from gltf_iri.errors import AssetError, UsageError
+from gltf_iri.errors import AssetError, UsageError, naming_file
 from gltf_iri.scene.exr import read_exr
 from gltf_iri.scene.model import Environment
 from gltf_iri.scene.radiance_hdr import read_radiance
@@ -38,10 +38,8 @@ def read_environment(path: str | PathLike[str]) -> Environment:
     if data.startswith(_OPENEXR_MAGIC):
         radiance = read_exr(place)
     elif data.startswith(b"#?"):
-        try:
+        with naming_file(place):
             radiance = read_radiance(data)
-        except AssetError as error:
-            raise AssetError(error.what, offset=error.offset, file=place) from error
     else:
         raise UsageError(f"{place} is neither a Radiance (.hdr) nor an OpenEXR (.exr) picture.")
     return _checked(place, radiance)

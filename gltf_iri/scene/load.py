@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from os import PathLike
 from pathlib import Path
 
 from gltf_iri.asset.document import Document, open_document
-from gltf_iri.errors import AssetError
+from gltf_iri.errors import naming_file
 from gltf_iri.material.material import Material
 from gltf_iri.material.parse import parse_materials
 from gltf_iri.scene.assemble import assemble_scene
@@ -34,7 +32,7 @@ class Model:
         Raises UsageError where there is no such scene, AssetError where it contradicts itself or holds no
         triangles.
         """
-        with _naming(self.path):
+        with naming_file(self.path):
             return assemble_scene(self.document, self.materials, index)
 
 
@@ -45,19 +43,8 @@ def load(path: str | PathLike[str]) -> Model:
     an extension that is not supported.
     """
     place = Path(path)
-    with _naming(place):
+    with naming_file(place):
         document = open_document(place)
         notes = list(document.notes)
         check_extensions(document.json, notes)
         return Model(place, document, parse_materials(document), tuple(dict.fromkeys(notes)))
-
-
-@contextmanager
-def _naming(path: Path) -> Iterator[None]:
-    """Add the file's name to errors from readers that do not know it."""
-    try:
-        yield
-    except AssetError as error:
-        if error.file is None:
-            error.file = path
-        raise
