@@ -5,14 +5,13 @@ from __future__ import annotations
 import base64
 import json
 import math
-import os
-import tempfile
 from pathlib import Path
 from typing import Any
 
 from gltf_iri.comparison.figures import delta_e_map, deviation_map, picture
 from gltf_iri.comparison.result import Comparison
 from gltf_iri.errors import UsageError
+from gltf_iri.whole_files import write_whole
 
 __all__ = ["report_html", "write_report"]
 
@@ -29,8 +28,7 @@ def write_report(comparison: Comparison, folder: Path) -> dict[str, Path]:
     files["report"] = ("report.json", f"{report}\n".encode(errors="backslashreplace"))
     files["page"] = ("index.html", report_html(comparison, images).encode(errors="replace"))
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        _replace_all({folder / file: data for file, data in files.values()})
+        write_whole({folder / file: data for file, data in files.values()})
     except OSError as error:
         raise UsageError(f"'{folder}' cannot be written to: {error.strerror or error}.") from error
     return {name: folder / file for name, (file, _) in files.items()}
@@ -95,21 +93,3 @@ def _strict(value: Any) -> Any:
     if isinstance(value, list):
         return [_strict(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _replace_all(files: dict[Path, bytes]) -> None:
-    """Write all beside their places, then rename: no reader sees half a file, no failure leaves a part."""
-    unfinished: dict[Path, Path] = {}
-    try:
-        for path, data in files.items():
-            handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-            unfinished[path] = Path(name)
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(data)
-            Path(name).chmod(0o644)  # mkstemp keeps others out; a report is for everyone
-        for path, temporary in unfinished.items():
-            temporary.replace(path)
-    except BaseException:
-        for temporary in unfinished.values():
-            temporary.unlink(missing_ok=True)
-        raise

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Callable, Mapping
 from os import PathLike
 from pathlib import Path
@@ -16,6 +15,7 @@ from numpy.typing import NDArray
 from gltf_iri.colour.transfer import srgb_encode
 from gltf_iri.errors import UsageError
 from gltf_iri.rendering.tonemap import tone_map
+from gltf_iri.whole_files import write_whole
 
 __all__ = ["check_picture_path", "display_pixels", "write_picture"]
 
@@ -52,24 +52,11 @@ def write_picture(
     premultiplied by A. Raises UsageError for any other ending and a place that cannot be written to.
     """
     place = check_picture_path(path)
+    write = _WRITERS[place.suffix.lower()]
     try:
-        # Beside its goal, for a file can be moved in one step only within a file system.
-        handle, name = tempfile.mkstemp(prefix=".", suffix=place.suffix.lower(), dir=place.parent)
-        os.close(handle)
-        try:
-            _WRITERS[place.suffix.lower()](name, rgba, exposure, tonemap)
-            Path(name).chmod(0o666 & ~_umask())  # temporary files are private, pictures are not
-            Path(name).replace(place)
-        finally:
-            Path(name).unlink(missing_ok=True)
+        write_whole({place: lambda unfinished: write(str(unfinished), rgba, exposure, tonemap)})
     except OSError as error:
         raise UsageError(f"'{place}' cannot be written: {error.strerror or error}.") from error
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask
 
 
 def _write_png(name: str, rgba: Float32, exposure: float, tonemap: str) -> None:

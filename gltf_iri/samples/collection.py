@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 
 from gltf_iri.errors import UsageError
 from gltf_iri.samples.sample import Sample
+from gltf_iri.whole_files import write_whole
 
 __all__ = ["NAMES", "build_samples", "collection_files", "write_samples"]
 
@@ -58,13 +57,14 @@ def write_samples(folder: Path) -> list[Path]:
         raise UsageError(f"{folder} is not a folder: name another one.")
     if folder.is_dir() and any(folder.iterdir()) and not _is_ours(folder / _INDEX):
         raise UsageError(f"{folder} holds other files than the samples: name an empty folder.")
-    files = collection_files()
+    files = {folder / name: content for name, content in collection_files().items()}
     try:
-        return [_write(folder / name, files[name]) for name in files]
+        write_whole(files)
     except OSError as error:
         raise UsageError(
             f"{folder} cannot be written to ({error.strerror or error}): name another folder."
         ) from error
+    return list(files)
 
 
 def _is_ours(index: Path) -> bool:
@@ -73,24 +73,3 @@ def _is_ours(index: Path) -> bool:
     except (OSError, ValueError):
         return False
     return isinstance(content, dict) and content.get("generator") == _WRITER
-
-
-def _write(path: Path, content: bytes) -> Path:
-    """Write all of a file or nothing, so that an interrupted run leaves no half of a sample."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.NamedTemporaryFile(dir=path.parent, delete=False) as unfinished:
-        temporary = Path(unfinished.name)
-        try:
-            unfinished.write(content)
-            unfinished.flush()
-            temporary.chmod(0o666 & ~_umask())
-            return temporary.replace(path)
-        except BaseException:
-            temporary.unlink(missing_ok=True)
-            raise
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -19,7 +19,7 @@ ROAD = (
     "asset",
 )
 # Open to every folder; these may import each other and nothing of the road.
-GROUND = {"optics", "colour", "errors", "tolerances", "resources"}
+GROUND = {"optics", "colour", "errors", "tolerances", "resources", "whole_files"}
 # Beside the road: a writer of assets that reads none.
 SAMPLES = "samples"
 # They see everything, because they start or gather it.
