@@ -99,7 +99,7 @@ def read_accessor(
         values = np.broadcast_to(np.zeros((), layout.dtype), (count, columns, rows))
 
     size = 4 if is_normalized else layout.dtype.itemsize
-    budget.spend(count * columns * rows * size, pointer)
+    budget.spend_on_accessor(count * columns * rows * size, pointer)
     values = values.astype(
         layout.dtype.newbyteorder("="), order="C"
     )  # a copy: what the file holds stays as it is

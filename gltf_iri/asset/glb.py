@@ -6,6 +6,7 @@ import struct
 from dataclasses import dataclass
 from typing import Final
 
+from gltf_iri.asset.limits import MAX_GLB_CHUNKS
 from gltf_iri.errors import AssetError
 
 __all__ = ["JSON_OFFSET", "MAGIC", "Container", "split_glb"]
@@ -69,6 +70,8 @@ def _chunks(data: memoryview) -> tuple[memoryview, memoryview | None]:
             binary = body
         offset += _CHUNK.size + len(body)
         position += 1
+        if position > MAX_GLB_CHUNKS:
+            raise AssetError(f"more than {MAX_GLB_CHUNKS} chunks follow each other", offset=offset)
     if not json_chunk:
         raise AssetError("the JSON chunk is empty", offset=_HEADER.size)
     return json_chunk, binary

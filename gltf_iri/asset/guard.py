@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Final
 from urllib.parse import unquote, unquote_to_bytes
 
-from gltf_iri.asset.limits import MAX_ASSET_BYTES
+from gltf_iri.asset.limits import MAX_ASSET_BYTES, MAX_DECODED_PER_BYTE, MAX_UNVOUCHED_BYTES
 from gltf_iri.asset.words import shown
 from gltf_iri.errors import AssetError, UsageError
 
@@ -21,11 +21,33 @@ _DATA_URI: Final = re.compile(r"data:([^,;]*)((?:;[^,;]*)*),", re.IGNORECASE)
 
 
 class Budget:
-    """Counts the bytes that one asset keeps in memory, and refuses before they are allocated."""
+    """Counts the bytes that one asset keeps in memory, and refuses before they are allocated.
+
+    `file_bytes` are those of the files themselves: what they vouch for may be large without being hostile.
+    """
 
     def __init__(self, limit: int = MAX_ASSET_BYTES) -> None:
         self._limit = limit
         self._spent = 0
+        self._decoded = 0
+        self.file_bytes = 0
+
+    def spend_on_file(self, count: int, pointer: str) -> None:
+        """Account for `count` bytes of a file or data URI."""
+        self.spend(count, pointer)
+        self.file_bytes += count
+
+    def spend_on_accessor(self, count: int, pointer: str) -> None:
+        """Account for `count` bytes of decoded elements, which must be in proportion to the files' bytes."""
+        self.spend(count, pointer)
+        self._decoded += count
+        allowed = MAX_UNVOUCHED_BYTES + MAX_DECODED_PER_BYTE * self.file_bytes
+        if self._decoded > allowed:
+            raise AssetError(
+                f"its {count} bytes bring the accessors beyond {allowed} bytes, the most that is held for "
+                f"files of {self.file_bytes}",
+                pointer=pointer,
+            )
 
     def spend(self, count: int, pointer: str) -> None:
         """Account for `count` bytes about to be allocated for the value at `pointer`."""

@@ -26,6 +26,8 @@ _PILLOW_NAMES: Final[Mapping[str, str]] = {"image/png": "PNG", "image/jpeg": "JP
 # Offset of IHDR's bit depth: the signature and IHDR lead every PNG (ISO 15948 §5.6, §11.2.2).
 _PNG_BIT_DEPTH_AT: Final = 24
 
+_STRIP_ROWS: Final = 256
+
 
 @dataclass(frozen=True, slots=True)
 class Image:
@@ -89,13 +91,32 @@ def _pixels(
                     )
                 budget.spend(width * height * 4, pointer)
                 notes += _remarks(picture, bits, pointer)
-                pixels = np.asarray(_as_rgba(picture, bits))
+                pixels = _rgba(picture, bits)
         except AssetError:
             raise
+        except PIL.UnidentifiedImageError as error:
+            raise AssetError(
+                f"the {media_type} is cut off or broken at its start", pointer=pointer
+            ) from error
+        except PIL.Image.DecompressionBombError as error:
+            raise AssetError(
+                f"the image has more than the {MAX_IMAGE_PIXELS} pixels allowed", pointer=pointer
+            ) from error
         # Fed hostile bytes, a decoder fails in more ways than its documentation lists.
         except Exception as error:
-            raise AssetError(f"the {media_type} cannot be decoded: {error}", pointer=pointer) from error
+            reason = str(error).rstrip(".") or type(error).__name__
+            raise AssetError(f"the {media_type} cannot be decoded: {reason}", pointer=pointer) from error
     pixels.setflags(write=False)
+    return pixels
+
+
+def _rgba(picture: PillowImage, bits: int) -> NDArray[np.uint8]:
+    """Convert to (height, width, 4) by strips: Pillow would hold the whole picture three times over."""
+    width, height = picture.size
+    pixels = np.zeros((height, width, 4), np.uint8)
+    for top in range(0, height, _STRIP_ROWS):
+        below = min(top + _STRIP_ROWS, height)
+        pixels[top:below] = np.asarray(_as_rgba(picture.crop((0, top, width, below)), bits))
     return pixels
 
 

@@ -11,7 +11,9 @@ from typing import Final
 __all__ = [
     "MAX_ASSET_BYTES",
     "MAX_BUFFERLESS_COUNT",
+    "MAX_DECODED_PER_BYTE",
     "MAX_FILE_BYTES",
+    "MAX_GLB_CHUNKS",
     "MAX_IMAGE_FILE_BYTES",
     "MAX_IMAGE_PIXELS",
     "MAX_JSON_BYTES",
@@ -20,10 +22,16 @@ __all__ = [
     "MAX_JSON_VALUES",
     "MAX_NODE_DEPTH",
     "MAX_NUMBER",
+    "MAX_REPEATED_VERTICES",
+    "MAX_UNVOUCHED_BYTES",
+    "VERTICES_PER_PRIMITIVE",
 ]
 
 # One .glb or .bin: signed 32-bit offsets end here, and so do most other readers.
 MAX_FILE_BYTES: Final = 2**31
+
+# glTF knows two; extensions may add some. Without a bound, 2 GiB of empty chunks are walked for minutes.
+MAX_GLB_CHUNKS: Final = 1024
 
 # JSON text, embedded buffers included; parsing keeps the text and its decoded copy in memory at once.
 MAX_JSON_BYTES: Final = 128 * 2**20
@@ -45,8 +53,21 @@ MAX_NUMBER: Final = 3.4028234663852886e38
 # few bytes of a file, so that bounding each alone would not bound their sum.
 MAX_ASSET_BYTES: Final = 4 * 2**30
 
-# Elements of an accessor without a buffer view, for which no file byte vouches: 16.7 million vertices.
-MAX_BUFFERLESS_COUNT: Final = 2**24
+# Elements of an accessor without a buffer view, for which no file byte vouches. Sparse morph targets are made
+# so; a million vertices is more than any face has.
+MAX_BUFFERLESS_COUNT: Final = 2**20
+
+# Decoded accessors for each byte of the files: 4 where bytes become floats, and few bytes are shared. The unvouched part lets small files have sparse morph targets.
+MAX_DECODED_PER_BYTE: Final = 8
+MAX_UNVOUCHED_BYTES: Final = 2**27
+
+# Vertices and indices of a scene, each instance and each morph target in force counted, beyond one for each
+# byte of the files: a hundred trees of a hundred thousand triangles are within it, a million copies of a
+# million vertices in a kilobyte of JSON are not.
+MAX_REPEATED_VERTICES: Final = 2**24
+
+# What a primitive counts for beside its vertices: one call to OpenGL costs as much as some hundred of them.
+VERTICES_PER_PRIMITIVE: Final = 256
 
 # A compressed picture: 8192 × 8192 RGBA as an uncompressed PNG is 256 MiB.
 MAX_IMAGE_FILE_BYTES: Final = 256 * 2**20

@@ -48,12 +48,21 @@ def parse_json(data: bytes | memoryview, start: int = 0) -> Any:
             parse_constant=hooks.number,
         )
     except json.JSONDecodeError as error:
-        raise AssetError(
-            f"the JSON is broken in line {error.lineno}, column {error.colno}: {error.msg}"
-        ) from error
+        raise _broken(error, start) from error
     if hooks.is_suspicious or _ESCAPED_SURROGATE.search(text):
         hooks.refuse(tree, "")
     return tree
+
+
+def _broken(error: json.JSONDecodeError, start: int) -> AssetError:
+    if not error.doc.strip():
+        return AssetError("there is no JSON, only blank space or nothing", offset=start)
+    # The parser's remarks end in "at", for it goes on to name the place.
+    reason = (error.msg[0].lower() + error.msg[1:]).removesuffix(" at").removesuffix(" starting")
+    return AssetError(
+        f"the JSON is broken in line {error.lineno}, column {error.colno}: {reason}",
+        offset=start + len(error.doc[: error.pos].encode()),
+    )
 
 
 def _decoded(data: bytes) -> str:
@@ -61,13 +70,16 @@ def _decoded(data: bytes) -> str:
     if len(data) > MAX_JSON_BYTES:
         raise AssetError(
             f"the JSON has {len(data)} bytes, more than the {MAX_JSON_BYTES} that are read; "
-            "move embedded buffers and images into files of their own or write a .glb"
+            "move embedded buffers and images into files of their own or write a .glb",
+            pointer="",
         )
     if data.startswith(_BYTE_ORDER_MARK):
         raise AssetError("the JSON starts with a byte order mark; save it as UTF-8 without one", offset=0)
     brackets = data.count(b"[") + data.count(b"{")
     if brackets + data.count(b",") > MAX_JSON_VALUES:
-        raise AssetError(f"the JSON has more than {MAX_JSON_VALUES} values, the most that are read")
+        raise AssetError(
+            f"the JSON has more than {MAX_JSON_VALUES} values, the most that are read", pointer=""
+        )
     if brackets > MAX_JSON_DEPTH:
         _refuse_depth(data)
     try:

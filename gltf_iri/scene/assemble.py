@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.asset.limits import MAX_REPEATED_VERTICES, VERTICES_PER_PRIMITIVE
 from gltf_iri.errors import AssetError
 from gltf_iri.material.fields import Kind, properties
 from gltf_iri.material.material import Material
@@ -19,6 +20,7 @@ from gltf_iri.scene.model import Camera, Light, Primitive, Scene
 from gltf_iri.scene.morph import default_weights
 from gltf_iri.scene.node import choose_scene, nodes_of_scene, world_matrices
 from gltf_iri.scene.skin import joint_matrices
+from gltf_iri.scene.triangles import MODES_WITHOUT_TRIANGLES
 
 if TYPE_CHECKING:
     from gltf_iri.asset.document import Document
@@ -73,6 +75,7 @@ class _RestPoses:
         self._document = document
         self._notes = notes
         self._read: dict[tuple[int, tuple[float, ...]], tuple[Primitive, ...]] = {}
+        self._counted = 0
 
     def place(
         self, node: Mapping[str, Any], name: str, worlds: tuple[Float64, ...], index: int
@@ -80,7 +83,9 @@ class _RestPoses:
         """Yield the primitives of the node's mesh, in the world."""
         mesh = node["mesh"]
         weights = default_weights(self._document.json["meshes"][mesh], node)
+        self._count(mesh, weights, f"/nodes/{index}/mesh")
         if "skin" in node:
+            self._counted += len(self._document.json["skins"][node["skin"]]["joints"])
             joints = joint_matrices(self._document, node["skin"], worlds)
             for primitive in self._primitives(mesh, weights, joints):
                 yield replace(primitive, node_name=name)
@@ -89,6 +94,24 @@ class _RestPoses:
             self._read[mesh, weights] = tuple(self._primitives(mesh, weights, None))
         for primitive in self._read[mesh, weights]:
             yield replace(primitive, node_name=name, world=worlds[index])
+
+    def _count(self, mesh: int, weights: tuple[float, ...], pointer: str) -> None:
+        """Refuse a scene of more vertices than the size of its files explains, before they are made."""
+        self._counted += len(weights)
+        for primitive in self._document.json["meshes"][mesh]["primitives"]:
+            self._counted += VERTICES_PER_PRIMITIVE
+            attributes = primitive["attributes"]
+            if "POSITION" in attributes and primitive.get("mode", 4) not in MODES_WITHOUT_TRIANGLES:
+                moved = sum(weight != 0.0 for weight in weights) if "targets" in primitive else 0
+                self._counted += len(self._document.accessor(attributes["POSITION"])) * (1 + moved)
+                if "indices" in primitive:
+                    self._counted += len(self._document.accessor(primitive["indices"]))
+            if self._counted > MAX_REPEATED_VERTICES + self._document.file_bytes:
+                raise AssetError(
+                    f"with this mesh the scene has more than {MAX_REPEATED_VERTICES} vertices and indices "
+                    "beyond one for each byte of the files, every instance and morph target counted",
+                    pointer=pointer,
+                )
 
     def _primitives(
         self, mesh: int, weights: tuple[float, ...], joints: Float64 | None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final
 
+from gltf_iri.asset.words import shown
 from gltf_iri.errors import AssetError
 from gltf_iri.material.fields import Kind, properties
 from gltf_iri.material.material import Material
@@ -29,6 +30,9 @@ _REMEDIES: Final[Mapping[str, str]] = {
     "KHR_texture_basisu": "export its textures as PNG, JPEG or WebP instead of KTX2",
 }
 
+# More names than this make no sentence.
+_NAMED: Final = 5
+
 
 def supported_extensions() -> tuple[str, ...]:
     """Return the names of the extensions that may be required, sorted."""
@@ -43,15 +47,18 @@ def check_extensions(document: Mapping[str, Any], notes: list[str]) -> None:
     if missing:
         remedies = dict.fromkeys(_REMEDIES[name] for name in missing if name in _REMEDIES)
         advice = " and ".join(remedies) or "export it without"
+        named = [shown(name) for name in missing[:_NAMED]]
+        if len(missing) > _NAMED:
+            named.append(f"and {len(missing) - _NAMED} more")
         raise AssetError(
-            f"the file requires {', '.join(missing)}, which this program does not read; {advice}",
+            f"the file requires {', '.join(named)}, which this program does not read; {advice}",
             pointer=f"/extensionsRequired/{required.index(missing[0])}",
         )
     for name in document.get("extensionsUsed", ()):
         if name in _PASSED_OVER:
             notes.append(_PASSED_OVER[name])
         elif name not in supported:
-            notes.append(f"Drawn without {name}, which this program does not read.")
+            notes.append(f"Drawn without {shown(name)}, which this program does not read.")
 
 
 def _stated(cls: type) -> Iterator[str]:

@@ -123,7 +123,10 @@ def _read_attributes(document: Document, references: dict[str, int], pointer: st
         if name not in references:
             continue
         where = f"{pointer}/attributes/{name}"
-        values = document.accessor(references[name]).astype(np.float32)
+        stored = document.accessor(references[name])
+        if name.startswith("JOINTS") and stored.dtype.kind != "u":
+            raise AssetError(f"{name} must be unsigned integers that are not normalised", pointer=where)
+        values = stored.astype(np.float32)
         if values.ndim != 2 or values.shape[1] not in allowed:
             raise AssetError(f"{name} cannot have the shape {values.shape[1:]}", pointer=where)
         count = len(attributes.get("POSITION", values))

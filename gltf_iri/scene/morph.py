@@ -51,7 +51,7 @@ def apply_morph_targets(
             where = f"{pointer}/targets/{place}/{name}"
             delta = document.accessor(accessor).astype(np.float32)
             width = delta.shape[1]
-            if len(delta) != len(moved[name]) or width > moved[name].shape[1]:
+            if delta.ndim != 2 or len(delta) != len(moved[name]) or width > moved[name].shape[1]:
                 raise AssetError(
                     f"the displacements have shape {delta.shape}, the attribute {moved[name].shape}",
                     pointer=where,

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.asset.limits import MAX_NUMBER
 from gltf_iri.errors import AssetError, UsageError
 
 __all__ = ["choose_scene", "local_matrix", "nodes_of_scene", "rotation_matrix", "world_matrices"]
@@ -17,6 +18,8 @@ Json = Mapping[str, Any]
 
 # Exporters write float32 quaternions; a norm further from 1 than this is worth a word in the notes.
 _UNIT_QUATERNION_SLACK = 1e-3
+
+_TRANSFORM = frozenset({"matrix", "translation", "rotation", "scale"})
 
 
 def rotation_matrix(quaternion: Sequence[float] | Float64) -> Float64:
@@ -62,16 +65,32 @@ def world_matrices(document: Json, notes: list[str]) -> tuple[Float64, ...]:
     """Return every node's world transform, (4, 4) each, in the order of the file.
 
     Nodes outside the scene are placed too: a skin may name them. That the nodes form trees, the asset's door
-    has checked.
+    has checked. Raises AssetError where their transforms overflow.
     """
     nodes: Sequence[Json] = document.get("nodes", ())
-    worlds = [np.eye(4)] * len(nodes)
+    worlds: list[Float64] = [np.eye(4)] * len(nodes)
     waiting = [(root, np.eye(4)) for root in _roots(nodes)]
-    while waiting:
-        index, above = waiting.pop()
-        worlds[index] = above @ local_matrix(nodes[index], f"/nodes/{index}", notes)
-        waiting.extend((child, worlds[index]) for child in nodes[index].get("children", ()))
+    with np.errstate(over="ignore", invalid="ignore"):  # refused below instead of warned about here
+        while waiting:
+            index, above = waiting.pop()
+            node = nodes[index]
+            # Most nodes of a large file only group others, and a few bytes of JSON make one.
+            is_placed = not _TRANSFORM.isdisjoint(node)
+            worlds[index] = above @ local_matrix(node, f"/nodes/{index}", notes) if is_placed else above
+            waiting.extend((child, worlds[index]) for child in node.get("children", ()))
+    _refuse_overflow(worlds)
     return tuple(worlds)
+
+
+def _refuse_overflow(worlds: Sequence[Float64]) -> None:
+    if not worlds:
+        return
+    fits = (np.abs(np.stack(worlds)) <= MAX_NUMBER).all(axis=(1, 2))
+    if not fits.all():
+        raise AssetError(
+            "its transform and those above it multiply to numbers beyond single precision",
+            pointer=f"/nodes/{int(np.argmin(fits))}",
+        )
 
 
 def nodes_of_scene(document: Json, roots: Sequence[int]) -> Iterator[int]:

@@ -18,6 +18,9 @@ __all__ = ["apply_skin", "is_mirroring", "joint_matrices"]
 Float64 = NDArray[np.float64]
 Attributes = Mapping[str, NDArray[np.float32]]
 
+# Exporters that normalise in float32 leave weights of −1e-8 where they mean 0.
+_WEIGHT_SLACK = 1e-6
+
 
 def joint_matrices(document: Document, skin: int, worlds: Sequence[Float64]) -> Float64:
     """Return (joints, 4, 4): what takes a vertex of the bind pose to world space, J = W_joint · B⁻¹.
@@ -31,7 +34,7 @@ def joint_matrices(document: Document, skin: int, worlds: Sequence[Float64]) -> 
     if "inverseBindMatrices" not in description:
         return placed
     inverse_binds = document.accessor(description["inverseBindMatrices"]).astype(np.float64)
-    if inverse_binds.ndim != 3 or len(inverse_binds) < len(joints):
+    if inverse_binds.shape[1:] != (4, 4) or len(inverse_binds) < len(joints):
         raise AssetError(
             f"the skin has {len(joints)} joints and needs as many 4×4 matrices",
             pointer=f"/skins/{skin}/inverseBindMatrices",
@@ -44,7 +47,7 @@ def apply_skin(attributes: Attributes, joints: Float64, pointer: str) -> dict[st
 
     Each vertex moves by M = Σ wᵢ Jᵢ, its normal by the cofactor matrix of M, which is det M · M⁻ᵀ and stays
     finite for a flattened joint. Mirroring joints flip normals with the sign of det M.
-    Raises AssetError where a joint does not exist.
+    Raises AssetError where a joint does not exist or a weight is negative.
     """
     blended = _blend(attributes, joints, pointer)
     linear = blended[:, :, :3]
@@ -81,6 +84,12 @@ def _blend(attributes: Attributes, joints: Float64, pointer: str) -> Float64:
             f"a vertex names joint {int(index.max())}; the skin has {len(joints)}",
             pointer=f"{pointer}/attributes",
         )
+    if np.any(weight < -_WEIGHT_SLACK):
+        raise AssetError(
+            f"a vertex has the joint weight {weight.min():g}; weights are 0 or more",
+            pointer=f"{pointer}/attributes",
+        )
+    weight = np.maximum(weight, 0.0)
     index = np.where(weight != 0.0, index, 0)  # unused slots may hold anything
     total = weight.sum(axis=1)
     weight[total <= 0.0, 0] = 1.0  # a vertex without weights would collapse into the origin

@@ -101,7 +101,7 @@ def test_a_path_that_does_not_exist_is_a_usage_error(name: str, tmp_path: Path) 
 @pytest.mark.parametrize(
     ("name", "content", "place"),
     [
-        ("empty.gltf", b"", None),
+        ("empty.gltf", b"", 0),
         ("empty.glb", b"", 0),
         ("text.glb", b"{}          ", 0),
         ("bom.gltf", b'\xef\xbb\xbf{"asset":{"version":"2.0"}}', 0),

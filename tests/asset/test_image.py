@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 from gltf_iri.asset.document import Document
 from gltf_iri.asset.guard import Budget
 from gltf_iri.asset.image import decode_image, sniff_media_type
+from gltf_iri.asset.limits import MAX_IMAGE_PIXELS
 from gltf_iri.errors import AssetError
 
 OpenImage = Callable[..., Document]
@@ -146,23 +147,14 @@ def test_other_formats_are_refused(data: bytes, open_image: OpenImage) -> None:
 def test_truncated_pictures_are_refused(kind: str, encode_picture: Encode, open_image: OpenImage) -> None:
     data = encode_picture(np.ascontiguousarray(GRADIENT[..., :3]), kind)
     for length in (16, len(data) // 2):
-        with pytest.raises(AssetError, match="cannot be decoded"):
+        with pytest.raises(AssetError, match=r"cannot be decoded|cut off or broken"):
             open_image(data[:length]).image(0)
 
 
-@pytest.mark.parametrize(
-    ("side", "words"),
-    [
-        (8193, "8193 × 8193 pixels, more than"),
-        (13_000, "more than"),
-        (20_000, "bomb"),
-        (60_000, "bomb"),
-        (2**31 - 1, "decoded"),
-    ],
-)
-def test_bombs_are_refused_before_they_are_decoded(side: int, words: str, open_image: OpenImage) -> None:
+@pytest.mark.parametrize("side", [8193, 13_000, 20_000, 60_000, 2**31 - 1])
+def test_bombs_are_refused_before_they_are_decoded(side: int, open_image: OpenImage) -> None:
     start = time.process_time()
-    with pytest.raises(AssetError, match=words):
+    with pytest.raises(AssetError, match=f"more than .*{MAX_IMAGE_PIXELS}"):
         open_image(png(side, side, 8, 6, b"\0" * 1000)).image(0)
     assert time.process_time() - start < 0.5
 

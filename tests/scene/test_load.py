@@ -45,7 +45,7 @@ def test_a_required_extension_that_is_not_read_is_refused_by_name(triangle, name
 def test_an_optional_extension_that_is_not_read_is_noted(triangle):
     triangle.json["extensionsUsed"] = ["VENDOR_materials_magic", "KHR_materials_ior"]
     assert triangle.load().notes == (
-        "Drawn without VENDOR_materials_magic, which this program does not read.",
+        "Drawn without 'VENDOR_materials_magic', which this program does not read.",
     )
 
 
