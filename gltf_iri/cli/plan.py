@@ -28,8 +28,7 @@ def command(file: Path, method: str | None, as_json: bool) -> None:
     image light, as `render` draws unless told otherwise) and are listed where the buffers are there.
     """
     from gltf_iri.errors import AssetError
-    from gltf_iri.material.material import Material
-    from gltf_iri.planning.decide import plan_material, plan_materials
+    from gltf_iri.planning.decide import complete_plans, plan_materials
     from gltf_iri.scene.load import load
 
     model = load(file)
@@ -42,9 +41,7 @@ def command(file: Path, method: str | None, as_json: bool) -> None:
         notes.append(f"The shader permutations are left out: {error}")
     else:
         notes += scene.notes
-        default = plan_material(Material(), -1, method=method)
-        if any(primitive.material == default.index for primitive in scene.primitives):
-            plans = (*plans, default)
+        plans = complete_plans(plans, scene)
         permutations = _permutations(scene, {plan.index: plan for plan in plans})
 
     if as_json:

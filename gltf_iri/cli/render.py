@@ -54,11 +54,11 @@ def command(
     of a pixel the model covers. Behind the model is the environment out of focus, in the studio a grey card.
     """
     from gltf_iri.errors import UsageError
-    from gltf_iri.planning.decide import plan_materials
+    from gltf_iri.planning.decide import complete_plans, plan_materials
     from gltf_iri.rendering.context import create_context
     from gltf_iri.rendering.picture import check_picture_path, write_picture
     from gltf_iri.rendering.programs import check_method
-    from gltf_iri.rendering.render import Renderer, complete_plans
+    from gltf_iri.rendering.render import Renderer
     from gltf_iri.scene.choose import choose_camera, choose_environment
     from gltf_iri.scene.load import load
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from gltf_iri.material.clearcoat import Clearcoat
 from gltf_iri.material.emissive_strength import EmissiveStrength
@@ -16,7 +16,10 @@ from gltf_iri.material.transmission import Transmission
 from gltf_iri.material.unlit import Unlit
 from gltf_iri.material.volume import Volume
 
-__all__ = ["Material", "MetallicRoughness"]
+__all__ = ["DEFAULT_MATERIAL", "Material", "MetallicRoughness"]
+
+# Stands where an index is wanted for the material of primitives that name none.
+DEFAULT_MATERIAL: Final = -1
 
 
 @dataclass(frozen=True, slots=True)

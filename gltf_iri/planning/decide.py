@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from typing import Final
+from collections.abc import Iterable, Sequence
+from typing import TYPE_CHECKING, Final
 
 from gltf_iri.errors import UsageError
 from gltf_iri.material.iridescence import Iridescence
-from gltf_iri.material.material import Material
+from gltf_iri.material.material import DEFAULT_MATERIAL, Material
 from gltf_iri.planning.core import core_verdicts
 from gltf_iri.planning.effects import MATERIAL_EFFECTS, Effect
 from gltf_iri.planning.extensions import extension_verdicts
@@ -16,7 +16,10 @@ from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import Method, find_method
 from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict
 
-__all__ = ["DEFAULT_METHOD", "plan_material", "plan_materials"]
+if TYPE_CHECKING:
+    from gltf_iri.scene.model import Scene
+
+__all__ = ["DEFAULT_METHOD", "complete_plans", "plan_material", "plan_materials"]
 
 DEFAULT_METHOD: Final = "khr-guarded"
 
@@ -39,10 +42,24 @@ def plan_materials(materials: Iterable[Material], *, method: str | None = None) 
     return tuple(plan_material(material, index, method=method) for index, material in enumerate(materials))
 
 
+def complete_plans(plans: Sequence[MaterialPlan], scene: Scene) -> tuple[MaterialPlan, ...]:
+    """Return `plans`, and at their end the plan of glTF's default material where `scene` uses it.
+
+    Raises UsageError where `scene` uses another material that has no plan.
+    """
+    missing = {primitive.material for primitive in scene.primitives} - {plan.index for plan in plans}
+    if DEFAULT_MATERIAL in missing:
+        plans = (*plans, plan_material(Material(name="default material"), DEFAULT_MATERIAL))
+        missing.remove(DEFAULT_MATERIAL)
+    if missing:
+        raise UsageError(f"There is no plan for material {min(missing)}, which the scene uses.")
+    return tuple(plans)
+
+
 def plan_material(material: Material, index: int, *, method: str | None = None) -> MaterialPlan:
     """Return what `material` calls for.
 
-    index : its place in the file, −1 for glTF's default material.
+    index : its place in the file, DEFAULT_MATERIAL for glTF's default material.
     method : the film method that was asked for; None leaves the choice to the plan.
 
     Raises UsageError where the method does not exist or does not compute films.

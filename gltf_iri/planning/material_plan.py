@@ -21,7 +21,7 @@ class MaterialPlan:
     mention at all, which lists for people leave out.
     """
 
-    index: int  # −1 for glTF's default material
+    index: int  # DEFAULT_MATERIAL for glTF's default material
     name: str
     effects: tuple[Effect, ...]  # in Effect order
     method: str | None  # None where there is no film

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import time
 from collections.abc import Collection, Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.errors import UsageError
 from gltf_iri.material.interface import material_textures, material_uniforms
-from gltf_iri.material.material import Material
-from gltf_iri.planning.decide import plan_material
+from gltf_iri.material.material import DEFAULT_MATERIAL, Material
+from gltf_iri.planning.decide import complete_plans
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.permutation import permutation, plan_scene_effects, primitive_effects
@@ -35,20 +34,7 @@ from gltf_iri.scene.model import Camera, Environment, Primitive, Scene
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["Renderer", "complete_plans"]
-
-DEFAULT_MATERIAL: Final = -1
-
-
-def complete_plans(plans: Sequence[MaterialPlan], scene: Scene) -> tuple[MaterialPlan, ...]:
-    """Return `plans`, and at their end the plan of glTF's default material where `scene` uses it."""
-    missing = {primitive.material for primitive in scene.primitives} - {plan.index for plan in plans}
-    if DEFAULT_MATERIAL in missing:
-        plans = (*plans, plan_material(Material(name="default material"), DEFAULT_MATERIAL))
-        missing.remove(DEFAULT_MATERIAL)
-    if missing:
-        raise UsageError(f"There is no plan for material {min(missing)}, which the scene uses.")
-    return tuple(plans)
+__all__ = ["Renderer"]
 
 
 class Renderer:
