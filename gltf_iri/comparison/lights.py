@@ -5,14 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.scene.light import CONE_COSINE_MIN, LIGHT_DISTANCE_MIN_M
 from gltf_iri.scene.model import Light
 
 __all__ = ["arriving"]
 
 Float64 = NDArray[np.float64]
-
-# Keeps the cone's edge finite where inner and outer angle coincide; KHR_lights_punctual's own constant.
-_CONE_COSINE_MIN = 1e-3
 
 
 def arriving(light: Light, position: Float64) -> tuple[Float64, Float64]:
@@ -26,8 +24,7 @@ def arriving(light: Light, position: Float64) -> tuple[Float64, Float64]:
         shape = position.shape
         return np.broadcast_to(-light.direction, shape), np.broadcast_to(emitted, shape)
     offset = light.position - position
-    # A point of the surface on which the light sits has no direction; a micrometre keeps it finite.
-    distance = np.maximum(np.linalg.norm(offset, axis=-1), 1e-6)
+    distance = np.maximum(np.linalg.norm(offset, axis=-1), LIGHT_DISTANCE_MIN_M)
     direction = offset / distance[:, None]
     share = 1.0 / distance**2
     if light.range_m is not None:
@@ -40,5 +37,5 @@ def arriving(light: Light, position: Float64) -> tuple[Float64, Float64]:
 def _cone(light: Light, direction: Float64) -> Float64:
     """Return 1 inside the inner cone, 0 outside the outer one, the square of a ramp in cosθ between them."""
     inner, outer = np.cos(light.inner_cone_rad), np.cos(light.outer_cone_rad)
-    ramp = (-(direction @ light.direction) - outer) / max(inner - outer, _CONE_COSINE_MIN)
+    ramp = (-(direction @ light.direction) - outer) / max(inner - outer, CONE_COSINE_MIN)
     return np.asarray(np.clip(ramp, 0.0, 1.0) ** 2)

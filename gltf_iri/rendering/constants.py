@@ -8,6 +8,7 @@ from gltf_iri.colour.sensitivity import GAUSSIANS, SENSITIVITY_WHITE, Gaussian
 from gltf_iri.colour.spaces import XYZ_TO_REC709
 from gltf_iri.evaluation import khr, khr_guarded
 from gltf_iri.optics import microfacet
+from gltf_iri.scene import light
 
 __all__ = ["constants_glsl", "film_constants_glsl", "glsl_float"]
 
@@ -20,6 +21,10 @@ def constants_glsl() -> str:
             "// gltf_iri/optics/microfacet.py",
             _scalar("ALPHA_MIN", microfacet.ALPHA_MIN),
             _scalar("N_DOT_V_MIN", microfacet.N_DOT_V_MIN),
+        ],
+        [
+            "// gltf_iri/scene/light.py",
+            _scalar("LIGHT_DISTANCE_MIN_M", light.LIGHT_DISTANCE_MIN_M),
         ],
     )
 

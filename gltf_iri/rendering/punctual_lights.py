@@ -4,20 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.scene.light import CONE_COSINE_MIN
 from gltf_iri.scene.model import Light
 
 if TYPE_CHECKING:
     import moderngl
 
 __all__ = ["lights_texture", "pack_lights"]
-
-# Keeps the cone's edge finite where inner and outer angle coincide; KHR_lights_punctual's own constant.
-_CONE_COSINE_MIN: Final = 1e-3
 
 
 def pack_lights(lights: Sequence[Light]) -> NDArray[np.float32]:
@@ -46,5 +44,5 @@ def lights_texture(context: moderngl.Context, lights: Sequence[Light]) -> modern
 def _cone_ramp(light: Light) -> tuple[float, float]:
     """Return scale and offset of the ramp from 0 at the outer cone to 1 at the inner one."""
     outer = math.cos(light.outer_cone_rad)
-    scale = 1.0 / max(math.cos(light.inner_cone_rad) - outer, _CONE_COSINE_MIN)
+    scale = 1.0 / max(math.cos(light.inner_cone_rad) - outer, CONE_COSINE_MIN)
     return scale, -outer * scale

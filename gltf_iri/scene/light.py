@@ -15,10 +15,16 @@ from gltf_iri.material.fields import choice, index, nested, number, text, vector
 from gltf_iri.material.parse import Rows
 from gltf_iri.scene.model import Light
 
-__all__ = ["PunctualLight", "Spot", "light_of_node"]
+__all__ = ["CONE_COSINE_MIN", "LIGHT_DISTANCE_MIN_M", "PunctualLight", "Spot", "light_of_node"]
 
 Float64 = NDArray[np.float64]
 Json = Mapping[str, Any]
+
+# Keeps the cone's edge finite where inner and outer angle are the same; the extension's own number.
+CONE_COSINE_MIN: Final = 1e-3
+
+# Keeps 1/d² and the direction finite at a point of the surface on which the light itself lies.
+LIGHT_DISTANCE_MIN_M: Final = 1e-6
 
 # π/2 as float32 holds it lies a little above π/2, and exporters pass angles through float32.
 _RIGHT_ANGLE_RAD: Final = float(np.float32(math.pi / 2.0))

@@ -77,8 +77,8 @@ class Light:
     position: Float64  # (3,), world
     direction: Float64  # (3,), unit, the way the light travels
     range_m: float | None = None
-    inner_cone_rad: float = 0.0
-    outer_cone_rad: float = 0.7853981633974483
+    inner_cone_rad: float = 0.0  # the two angles are read for a spot only
+    outer_cone_rad: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)

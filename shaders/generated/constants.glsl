@@ -3,3 +3,6 @@
 // gltf_iri/optics/microfacet.py
 const float ALPHA_MIN = 0.001;
 const float N_DOT_V_MIN = 0.0001;
+
+// gltf_iri/scene/light.py
+const float LIGHT_DISTANCE_MIN_M = 1e-06;

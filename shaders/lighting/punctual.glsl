@@ -1,6 +1,7 @@
 // Point, spot and directional lights. Source: KHR_lights_punctual.
 
 #include "common/math.glsl"
+#include "generated/constants.glsl"
 
 uniform sampler2D u_lights;  // one row a light, four texels each: gltf_iri/rendering/punctual_lights.py
 uniform int u_light_count;
@@ -28,8 +29,7 @@ Illuminant punctual_light(int index, vec3 position) {
         return Illuminant(-beam.xyz, power);
     }
     vec3 towards = place.xyz - position;
-    // Keeps a point of the surface on which the light sits finite.
-    float distance_m = max(length(towards), 1e-6);
+    float distance_m = max(length(towards), LIGHT_DISTANCE_MIN_M);
     vec3 direction = towards / distance_m;
     float share = range_attenuation(distance_m, beam.w) * spot_attenuation(dot(beam.xyz, -direction), cone);
     return Illuminant(direction, power * share);
