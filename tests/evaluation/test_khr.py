@@ -111,3 +111,13 @@ def test_branch_distance_counts_float32_steps(film_ior: float, outside_ior: floa
 
 def test_branch_distance_is_large_for_ordinary_films() -> None:
     assert khr_branch_distance_ulp(Film.of(0.7, 300.0, 1.3, base_from_ior(1.5))) > 1e5
+
+
+def test_equal_indices_take_the_phase_of_the_denser_second_medium() -> None:
+    """The text turns the phase where the next index is lower, not where it is the same."""
+    outside_ior, f0 = 1.5, np.full(3, 0.04)
+    at, above, below = iridescent_fresnel_khr(
+        outside_ior, outside_ior + np.array([0.0, 1e-9, -1e-9]), f0 + 0.2, 200.0, 0.4
+    )
+    assert np.abs(at - above).max() <= 1e-6
+    assert np.abs(at - below).max() > 1e-3

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from gltf_iri.colour.sensitivity import SENSITIVITY_WHITE, eval_sensitivity
 from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
-from gltf_iri.evaluation.khr import evaluate_khr
+from gltf_iri.evaluation.khr import F0_OFFSET, evaluate_khr, iridescent_fresnel_khr
 from gltf_iri.evaluation.khr_guarded import MATCHED_F0, evaluate_khr_guarded, f_schlick_matched
 from gltf_iri.optics.fresnel import f_schlick
 
@@ -44,6 +45,30 @@ def test_thickness_fades_in_without_a_step() -> None:
     rgb = guarded(Film.of(0.9, thickness, 1.8, base_from_f0([0.9, 0.6, 0.3])))
     assert np.abs(np.diff(rgb, axis=0)).max() <= 1e-3
     assert np.abs(rgb[0] - f_schlick([0.9, 0.6, 0.3], 0.9)).max() <= 1e-12
+
+
+def test_from_100_nm_of_path_difference_on_the_film_is_whole() -> None:
+    film_ior, f0 = 1.8, np.array([0.2, 0.15, 0.1])
+    opd_nm = np.array([90.0, 100.0, 110.0, 400.0])
+    text_with_white_fringes = iridescent_fresnel_khr(
+        1.0,
+        film_ior,
+        f0 - F0_OFFSET,
+        opd_nm / (2.0 * film_ior),
+        1.0,
+        sensitivity=lambda opd, shift: eval_sensitivity(opd, shift) / SENSITIVITY_WHITE,
+    )
+    ours = guarded(Film.of(1.0, opd_nm / (2.0 * film_ior), film_ior, base_from_f0(f0)))
+    difference = np.abs(ours - text_with_white_fringes).max(axis=-1)
+    assert difference[0] > 1e-4
+    assert difference[1:].max() <= 1e-12
+
+
+def test_a_thick_film_over_a_white_mirror_sends_everything_back() -> None:
+    """No fringe is left at 1 mm, and the sum over all inter-reflections is 1, at grazing angles too."""
+    cosines = np.array([1e-3, 1e-2, 0.1, 0.5, 1.0])
+    rgb = guarded(Film.of(cosines, 1e6, 1.16, base_from_f0(np.ones(3))))
+    assert np.abs(rgb - 1.0).max() <= 2e-4
 
 
 def test_contrast_fades_in_without_a_step() -> None:

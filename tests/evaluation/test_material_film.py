@@ -92,3 +92,21 @@ def test_material_without_film_is_refused() -> None:
     subject = material(0.0, iridescence=None)
     with pytest.raises(UsageError, match="no film"):
         evaluate_material(subject, plan_material(subject, 3), COSINES)
+
+
+def test_a_metal_hides_its_share_of_what_lies_below() -> None:
+    layers = [
+        evaluate_material(subject, plan_material(subject, 0), COSINES).layer
+        for subject in (material(0.0), material(0.25), material(1.0))
+    ]
+    assert np.abs(layers[1].base_weight - 0.75 * layers[0].base_weight).max() <= 1e-12
+    assert np.array_equal(layers[2].base_weight, np.zeros(COSINES.shape))
+
+
+def test_specular_weight_and_tint_belong_to_the_base_under_the_film() -> None:
+    subject = material(0.0, specular=Specular(factor=0.5, color_factor=(1.0, 0.5, 0.25)))
+    done = evaluate_material(subject, plan_material(subject, 0), COSINES)
+    base = base_from_f0(0.5 * 0.04 * np.array([1.0, 0.5, 0.25]))
+    assert (
+        np.abs(done.film.rgb - evaluate("khr-guarded", Film.of(COSINES, 350.0, 1.8, base)).rgb).max() <= 1e-12
+    )
