@@ -108,6 +108,17 @@ def test_constant_dispersion_is_no_dispersion() -> None:
         assert np.abs(difference).max() <= 1e-12
 
 
+def test_methods_with_one_index_take_that_of_the_helium_line() -> None:
+    def cauchy(wavelength_nm: NDArray[np.float64]) -> NDArray[np.float64]:
+        return 1.4 + 5e3 / wavelength_nm**2
+
+    base = base_from_ior(1.5)
+    dispersive, plain = (
+        evaluate("khr", Film.of(0.8, 300.0, index, base)).rgb for index in (cauchy, 1.4 + 5e3 / 587.56**2)
+    )
+    assert np.abs(dispersive - plain).max() <= 1e-14
+
+
 def test_dispersion_moves_the_colour_as_its_wavelength_says() -> None:
     """A bare base whose index rises towards the blue reflects more blue, by the Fresnel law of each λ."""
     from gltf_iri.evaluation.film import base_from_dispersion

@@ -245,6 +245,16 @@ def test_specular_glossiness_is_admitted_and_its_exclusion_named():
             "only dielectrics read it, and the metallic factor is 1 and no texture lowers it",
         ),
         (
+            Material(pbr=DIELECTRIC, specular=Specular(0.0, T)),
+            Effect.SPECULAR_TEXTURE,
+            "the specular factor is 0",
+        ),
+        (
+            Material(pbr=DIELECTRIC, specular=Specular(color_factor=(0.0, 0.0, 0.0), color_texture=T)),
+            Effect.SPECULAR_COLOR_TEXTURE,
+            "the specular color factor is 0",
+        ),
+        (
             Material(transmission=Transmission(1.0)),
             Effect.TRANSMISSION,
             "only dielectrics transmit, and the metallic factor is 1 and no texture lowers it",

@@ -50,6 +50,11 @@ def test_a_light_shines_along_minus_z_of_its_node(lit):
     assert lights[2].name == "bulb"
 
 
+def test_sunlight_has_no_range(lit):
+    (light,) = lit({"type": "directional", "range": 8})
+    assert light.range_m is None
+
+
 def test_a_right_angle_that_passed_through_float32_is_a_legal_cone(lit):
     angle = float(np.float32(math.pi / 2))
     (light,) = lit({"type": "spot", "spot": {"outerConeAngle": angle}})
