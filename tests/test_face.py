@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import doctest
+import inspect
 import json
 import subprocess
 import sys
@@ -13,12 +14,13 @@ import numpy as np
 import pytest
 
 import gltf_iri
+from gltf_iri.colour.spaces import WHITES
 from gltf_iri.errors import AssetError, UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
 from gltf_iri.evaluation.registry import evaluate as evaluate_film
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
-from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.method import DEFAULT_METHOD, METHODS
 from gltf_iri.scene.environment import white
 
 ROOT = Path(__file__).parents[1]
@@ -117,6 +119,13 @@ def test_each_way_to_give_the_base_is_that_base(given, base):
 def test_a_wrong_call_raises_usage_error(wrong):
     with pytest.raises(UsageError):
         gltf_iri.evaluate(**({"method": "khr", "cos_theta_1": 1.0, "thickness_nm": 400.0} | wrong))
+
+
+def test_what_evaluate_takes_for_granted_is_gltfs():
+    defaults = {name: p.default for name, p in inspect.signature(gltf_iri.evaluate).parameters.items()}
+    assert defaults["film_ior"] == Iridescence().film_ior
+    assert defaults["method"] == DEFAULT_METHOD
+    assert defaults["white"] == WHITES[0]
 
 
 def test_plan_takes_a_material_and_a_method():

@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
+from gltf_iri.material.ior import Ior
+from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.planning.method import DEFAULT_METHOD, METHODS
 
 if TYPE_CHECKING:
-    from gltf_iri.evaluation.film import Base, Evaluation
+    from gltf_iri.evaluation.film import Evaluation
     from gltf_iri.material.material import Material
 
 __all__ = ["command"]
@@ -18,10 +21,10 @@ __all__ = ["command"]
 # Even in cos θ, from straight on to grazing.
 _DEFAULT_COSINES = tuple(i / 10 for i in range(10, -1, -1))
 
-# What glTF gives a material that says nothing else; repeated in the help text from here.
-_DEFAULT_FILM_IOR = 1.3
-_DEFAULT_THICKNESS_NM = 400.0
-_DEFAULT_BASE_IOR = 1.5
+# glTF's own defaults, for the film and for its base.
+_DEFAULT_FILM = Iridescence()
+_DEFAULT_BASE = Ior()
+_DEFAULT_OUTSIDE_IOR = 1.0
 
 _LISTED_MAX = 8  # materials that an error names; `plan` lists them all
 
@@ -50,12 +53,14 @@ class _Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in click's
 @click.command(name="evaluate")
 @click.argument("file", required=False, type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option("--material", metavar="M", help="Material of FILE, by name or number; else its only film.")
-@click.option("--film-ior", type=float, help=f"Refractive index of the film [{_DEFAULT_FILM_IOR}].")
-@click.option("--thickness", type=float, metavar="NM", help=f"In nanometres [{_DEFAULT_THICKNESS_NM:g}].")
+@click.option("--film-ior", type=float, help=f"Refractive index of the film [{_DEFAULT_FILM.film_ior:g}].")
+@click.option(
+    "--thickness", type=float, metavar="NM", help=f"In nanometres [{_DEFAULT_FILM.thickness_max_nm:g}]."
+)
 @click.option("--base-f0", type=_Numbers(1, 3), metavar="F|R,G,B", help="Base by its reflectance under air.")
-@click.option("--base-ior", type=float, help=f"Base by its real index [{_DEFAULT_BASE_IOR}].")
+@click.option("--base-ior", type=float, help=f"Base by its real index [{_DEFAULT_BASE.ior:g}].")
 @click.option("--base-nk", type=_Numbers(2), metavar="N,K", help="Base by its complex index N + iK.")
-@click.option("--outside-ior", type=float, help="Refractive index outside the film [1].")
+@click.option("--outside-ior", type=float, help=f"Index outside the film [{_DEFAULT_OUTSIDE_IOR:g}].")
 @click.option(
     "--cos",
     "cosines",
@@ -64,7 +69,7 @@ class _Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in click's
     default=_DEFAULT_COSINES,
     help="Cosines [1 to 0 by 0.1].",
 )
-@click.option("--method", metavar="NAME", help="khr, khr-guarded or spectral [khr-guarded].")
+@click.option("--method", metavar="NAME", help=f"One of {', '.join(METHODS)} [{DEFAULT_METHOD}].")
 @click.option("--white", metavar="D65|E", default="D65", help="White of the colours [D65].")
 @click.option("--layered", is_flag=True, help="Add the specular colour and base weight of FILE's material.")
 @json_option
@@ -98,33 +103,25 @@ def command(
 def _from_parameters(
     cosines: tuple[float, ...], method: str | None, white: str, given: dict[str, Any]
 ) -> dict[str, Any]:
-    from gltf_iri.evaluation.film import Film
-    from gltf_iri.evaluation.registry import evaluate
-    from gltf_iri.planning.decide import DEFAULT_METHOD
+    import gltf_iri
 
-    film = Film.of(
-        cosines,
-        _or(given["thickness"], _DEFAULT_THICKNESS_NM),
-        _or(given["film_ior"], _DEFAULT_FILM_IOR),
-        _base(given),
-        _or(given["outside_ior"], 1.0),
-    )
-    return _result(cosines, evaluate(DEFAULT_METHOD if method is None else method, film, white=white))
-
-
-def _base(given: dict[str, Any]) -> Base:
-    from gltf_iri.evaluation.film import base_from_f0, base_from_ior
-
-    forms = [name for name in ("base_f0", "base_ior", "base_nk") if given[name] is not None]
-    if len(forms) > 1:
-        names = " and ".join("--" + name.replace("_", "-") for name in forms)
+    bases = [name for name in ("base_f0", "base_ior", "base_nk") if given[name] is not None]
+    if len(bases) > 1:
+        names = " and ".join("--" + name.replace("_", "-") for name in bases)
         raise click.UsageError(f"{names} each describe the base: give one of them")
-    if given["base_f0"] is not None:
-        f0 = given["base_f0"]
-        return base_from_f0(f0 if len(f0) == 3 else f0 * 3)
-    if given["base_nk"] is not None:
-        return base_from_ior(complex(*given["base_nk"]))
-    return base_from_ior(_or(given["base_ior"], _DEFAULT_BASE_IOR))
+    f0 = given["base_f0"]
+    evaluation = gltf_iri.evaluate(
+        DEFAULT_METHOD if method is None else method,
+        cos_theta_1=cosines,
+        thickness_nm=_or(given["thickness"], _DEFAULT_FILM.thickness_max_nm),
+        film_ior=_or(given["film_ior"], _DEFAULT_FILM.film_ior),
+        base_f0=f0[0] if f0 is not None and len(f0) == 1 else f0,
+        base_ior=given["base_ior"],
+        base_nk=given["base_nk"],
+        outside_ior=_or(given["outside_ior"], _DEFAULT_OUTSIDE_IOR),
+        white=white,
+    )
+    return _result(cosines, evaluation)
 
 
 def _from_file(

@@ -13,15 +13,13 @@ from gltf_iri.planning.effects import MATERIAL_EFFECTS, Effect
 from gltf_iri.planning.extensions import extension_verdicts
 from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, film_verdicts, idle_film
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.method import Method, find_method
+from gltf_iri.planning.method import DEFAULT_METHOD, Method, find_method
 from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict
 
 if TYPE_CHECKING:
     from gltf_iri.scene.model import Scene
 
-__all__ = ["DEFAULT_METHOD", "complete_plans", "plan_material", "plan_materials"]
-
-DEFAULT_METHOD: Final = "khr-guarded"
+__all__ = ["complete_plans", "plan_material", "plan_materials"]
 
 # What an unlit material still does.
 _SEEN_UNLIT: Final = frozenset(

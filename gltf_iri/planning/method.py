@@ -9,11 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Literal
+from typing import Final, Literal
 
 from gltf_iri.errors import UsageError
 
-__all__ = ["METHODS", "Method", "find_method"]
+__all__ = ["DEFAULT_METHOD", "METHODS", "Method", "find_method"]
+
+DEFAULT_METHOD: Final = "khr-guarded"
 
 
 @dataclass(frozen=True, slots=True)
