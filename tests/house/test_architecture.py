@@ -31,6 +31,24 @@ SLOW_TO_LOAD = {
 }
 LONGEST_FILE = 300
 
+OPENS_FILES = {
+    *("open", "fdopen", "read_text", "read_bytes", "write_text", "write_bytes", "mkstemp"),
+    *("NamedTemporaryFile", "save", "savefig", "File"),
+}
+OPENERS = {
+    "asset/guard.py",  # every file of an asset
+    "asset/image.py",  # decodes bytes
+    "scene/exr.py",  # OpenEXR's library opens by name; the door has looked at the file before
+    "whole_files.py",  # every file that a user asks for
+    "rendering/picture.py",  # encodes into the file that whole_files.py hands it
+    "comparison/figures.py",  # encodes into memory
+    "rendering/source.py",  # the program's own shaders
+    "colour/observer.py",  # the program's own tables
+    "samples/collection.py",  # looks at the index of an earlier collection
+    "cli/main.py",  # the null device
+    "generate.py",  # the checkout that it runs in
+}
+
 TOP_LEVEL = {
     *("pyproject.toml", "README.md", "LICENSE", "CHANGELOG.md", "CONTRIBUTING.md", "Makefile"),
     *(".ci", ".gitignore", "gltf_iri", "shaders", "samples", "spec", "tests"),
@@ -99,6 +117,35 @@ def test_slow_packages_are_imported_where_they_are_used() -> None:
     assert at_the_top == []
 
 
+def test_opengl_is_spoken_in_one_folder_only() -> None:
+    speakers = {
+        part_of(module)
+        for module in MODULES
+        for _, name in imported(without_type_checking(ast.parse(module.read_text(encoding="utf-8"))))
+        if name.split(".")[0] == "moderngl"
+    }
+    assert speakers == {"rendering"}
+
+
+def test_files_are_opened_at_the_few_places_that_are_known() -> None:
+    openers = {
+        module.relative_to(PACKAGE).as_posix()
+        for module in MODULES
+        for node in ast.walk(ast.parse(module.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and called(node.func) in OPENS_FILES
+    }
+    assert openers == OPENERS
+
+
+def called(function: ast.expr) -> str:
+    """Return the last name of what is called: "open" for both open() and Path.open()."""
+    return function.attr if isinstance(function, ast.Attribute) else getattr(function, "id", "")
+
+
+def without_type_checking(tree: ast.Module) -> ast.Module:
+    return ast.Module([node for node in tree.body if not is_type_checking(node)], tree.type_ignores)
+
+
 def is_type_checking(node: ast.AST) -> bool:
     return isinstance(node, ast.If) and isinstance(node.test, ast.Name) and node.test.id == "TYPE_CHECKING"
 
@@ -119,7 +166,7 @@ def test_every_module_says_what_it_offers(module: Path) -> None:
 
 
 def test_no_file_is_too_long_to_be_read_at_once() -> None:
-    shaders = sorted(p for p in (ROOT / "shaders").rglob("*.glsl") if "generated" not in p.parts)
+    shaders = [p for p in (ROOT / "shaders").rglob("*.*") if "generated" not in p.parts]
     lengths = {
         str(path.relative_to(ROOT)): len(path.read_text(encoding="utf-8").splitlines())
         for path in (*MODULES, *shaders)
