@@ -57,7 +57,8 @@ MAX_ASSET_BYTES: Final = 4 * 2**30
 # so; a million vertices is more than any face has.
 MAX_BUFFERLESS_COUNT: Final = 2**20
 
-# Decoded accessors for each byte of the files: 4 where bytes become floats, and few bytes are shared. The unvouched part lets small files have sparse morph targets.
+# Decoded accessors for each byte of the files: 4 where bytes become floats, and accessors share few of their
+# bytes. The unvouched part lets small files have sparse morph targets.
 MAX_DECODED_PER_BYTE: Final = 8
 MAX_UNVOUCHED_BYTES: Final = 2**27
 

@@ -7,11 +7,12 @@ hurt, such as an empty array, is a note. Unknown keys are kept as they are.
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from typing import Any, Final
 
 from gltf_iri.asset.hierarchy import check_hierarchy
 from gltf_iri.asset.limits import MAX_JSON_INTEGER, MAX_NUMBER
-from gltf_iri.asset.tables import EXCLUSIVE, NAMED_BY_TYPE, OBJECTS, ONE_OF, Kind, Row, Shape
+from gltf_iri.asset.tables import COMPONENT_BYTES, EXCLUSIVE, NAMED_BY_TYPE, OBJECTS, ONE_OF, Kind, Row, Shape
 from gltf_iri.asset.words import join, kind_of, shown
 from gltf_iri.errors import AssetError
 
@@ -41,7 +42,7 @@ def check_structure(root: Any) -> list[str]:
     checker = _Checker(root)
     checker.object("glTF", root, "")
     check_hierarchy(root)
-    return [*checker.notes(), *_version_notes(root["asset"])]
+    return [*checker.notes(), *_version_notes(root["asset"]), *_alignment_notes(root)]
 
 
 class _Checker:
@@ -191,6 +192,20 @@ def _refuse_repeated(values: list[Any], pointer: str) -> None:
 def _mismatch(value: Any, wanted: str, pointer: str) -> AssetError:
     found = shown(value) if isinstance(value, int | float) else kind_of(value)
     return AssetError(f"{found} stands where {wanted} is wanted", pointer=pointer)
+
+
+def _alignment_notes(root: dict[str, Any]) -> Iterator[str]:
+    """Remark on elements that a reader which maps memory could not take (§3.6.2.4); here they are copied."""
+    crooked = [
+        number
+        for number, accessor in enumerate(root.get("accessors", ()))
+        if "bufferView" in accessor
+        and (accessor.get("byteOffset", 0) + root["bufferViews"][accessor["bufferView"]].get("byteOffset", 0))
+        % COMPONENT_BYTES[accessor["componentType"]]
+    ]
+    if crooked:
+        more = f", here and in {len(crooked) - 1} more accessors" if len(crooked) > 1 else ""
+        yield f"/accessors/{crooked[0]}: the elements are not aligned to their components{more}."
 
 
 def _version_notes(asset: dict[str, Any]) -> list[str]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.asset.limits import MAX_REPEATED_VERTICES, VERTICES_PER_PRIMITIVE
+from gltf_iri.asset.limits import MAX_NUMBER, MAX_REPEATED_VERTICES, VERTICES_PER_PRIMITIVE
 from gltf_iri.errors import AssetError
 from gltf_iri.material.fields import Kind, properties
 from gltf_iri.material.material import Material
@@ -93,6 +93,7 @@ class _RestPoses:
         if (mesh, weights) not in self._read:
             self._read[mesh, weights] = tuple(self._primitives(mesh, weights, None))
         for primitive in self._read[mesh, weights]:
+            _refuse_far_away(primitive, worlds[index], f"/nodes/{index}")
             yield replace(primitive, node_name=name, world=worlds[index])
 
     def _count(self, mesh: int, weights: tuple[float, ...], pointer: str) -> None:
@@ -120,6 +121,15 @@ class _RestPoses:
             primitive = read_primitive(self._document, mesh, place, weights, joints, self._notes)
             if primitive is not None:
                 yield primitive
+
+
+def _refuse_far_away(primitive: Primitive, world: Float64, pointer: str) -> None:
+    """Raise AssetError where OpenGL could not place the vertices; |M p| ≤ |M| max |p| in each component."""
+    farthest = np.abs(primitive.positions).max(axis=0).astype(np.float64)
+    if np.any(np.abs(world[:3, :3]) @ farthest + np.abs(world[:3, 3]) > MAX_NUMBER):
+        raise AssetError(
+            f"it places vertices of {primitive.pointer} beyond single precision", pointer=pointer
+        )
 
 
 def _missing_uv_sets(primitives: list[Primitive], materials: tuple[Material, ...]) -> Iterator[str]:

@@ -108,7 +108,9 @@ class Scene:
         """Return every vertex that a triangle uses in world space, (n, 3); AssetError for an empty scene."""
         placed = []
         for p in self.primitives:
-            used = p.positions[np.unique(p.triangles)].astype(np.float64)
+            is_used = np.zeros(len(p.positions), dtype=bool)
+            is_used[p.triangles] = True
+            used = p.positions[is_used].astype(np.float64)
             placed.append(used @ p.world[:3, :3].T + p.world[:3, 3])
         if not placed:
             raise AssetError("the scene has no triangles to draw")
