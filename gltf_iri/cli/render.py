@@ -80,7 +80,13 @@ def command(
 
     used = [plan for plan in plans if plan.index in {primitive.material for primitive in scene.primitives}]
     notes = dict.fromkeys(
-        (*model.notes, *scene.notes, *(environment.notes if environment else ()), *frame.notes)
+        (
+            *model.notes,
+            *model.document.notes,  # by now with what was found in its pictures
+            *scene.notes,
+            *(environment.notes if environment else ()),
+            *frame.notes,
+        )
     )
     if not frame.rgba[..., 3].any():
         notes[EMPTY_PICTURE] = None

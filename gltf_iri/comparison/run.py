@@ -79,7 +79,12 @@ def compare(
             "tonemap": TONEMAP,
         },
         program={"gltf_iri": __version__, "python": platform.python_version(), "numpy": np.__version__},
-        notes=(*model.notes, *scene.notes, *(environment.notes if environment is not None else ())),
+        notes=(
+            *model.notes,
+            *model.document.notes,  # by now with what was found in its pictures
+            *scene.notes,
+            *(environment.notes if environment is not None else ()),
+        ),
     )
     comparison = judge(fine, shot, coarse=coarse)
     advance()
