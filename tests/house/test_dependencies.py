@@ -44,6 +44,7 @@ def test_the_package_imports_only_what_it_declares() -> None:
 
 def test_the_tests_import_only_what_is_declared() -> None:
     extra = PROJECT["optional-dependencies"]["test"]
-    helpers = {path.stem for path in (ROOT / "tests").rglob("*.py")}
+    modules = (ROOT / "tests").rglob("*.py")
+    helpers = {path.parent.name if path.name == "__init__.py" else path.stem for path in modules}
     missing = undeclared("tests", PROJECT["dependencies"] + extra)
     assert [line for line in missing if line.split()[-1] not in helpers] == []
