@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -68,6 +70,20 @@ def test_rougher_layers_blur_more(prepared):
     assert np.all(np.diff([np.ptp(layer) for layer in layers]) < 0.0)
 
 
+@pytest.mark.parametrize("up", [1.0, -1.0])
+def test_a_surface_that_faces_a_pole_reads_its_own_layer_alone(stage, props, up):
+    """Layers lie one below the other in one texture: the last row of one beside the first of the next."""
+    view = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -up, 0.0], [0.0, up, 0.0, -4.0], [0.0, 0.0, 0.0, 1.0]])
+    ball = Material(pbr=MetallicRoughness(metallic_factor=0.0))
+    camera = replace(props.camera(half_height=1.0), view=view)
+    inputs = stage.draw(
+        props.sphere(), ball, environment=slanted_sky(), seen_from=camera, with_inputs=True
+    ).inputs
+    assert np.abs(inputs.normal[32, 32] - [0.0, up, 0.0]).max() <= 0.04
+    expected = 1.0 + 2.0 / 3.0 * (inputs.normal[32, 32] @ AXIS)
+    assert np.abs(inputs.irradiance[32, 32] - expected).max() <= 5e-3
+
+
 def test_halving_keeps_the_light_of_the_whole_sphere():
     rng = np.random.default_rng(7)
     sky = rng.uniform(0.0, 5.0, (33, 70, 3)).astype(np.float32)
@@ -105,3 +121,20 @@ def test_a_mirror_shows_a_lamp_where_the_mirror_law_puts_it(stage, props, column
     normal /= np.linalg.norm(normal)
     mirrored = 2.0 * normal[2] * normal - [0.0, 0.0, 1.0]
     assert np.degrees(np.arccos(mirrored @ lamp)) <= 3.0
+
+
+def test_a_mirror_does_not_sparkle_where_a_pixel_sees_many_texels(stage, props):
+    stripes = np.zeros((256, 512, 3), np.float32)
+    stripes[:, ::2] = 2.0
+    mirror = Material(pbr=MetallicRoughness(metallic_factor=1.0, roughness_factor=0.0))
+    inputs = stage.draw(
+        props.sphere(),
+        mirror,
+        environment=Environment("stripes", stripes),
+        seen_from=props.camera(half_height=1.0),
+        size=(24, 24),
+        with_inputs=True,
+    ).inputs
+    seen = inputs.reflected_radiance[inputs.material == 0][:, 0]
+    assert np.mean(seen) == pytest.approx(1.0, abs=0.05)
+    assert np.abs(seen - 1.0).max() <= 0.2

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -93,6 +95,15 @@ def test_a_mirrored_mesh_shows_the_mirrored_bumps(stage, props, scale, has_tange
     found = middle(stage.draw(primitive, material, images=images, with_inputs=True))
     mirrored = bump * scale
     assert np.abs(found - mirrored * np.sign(mirrored[2])).max() <= 0.01
+
+
+def test_the_normal_scale_flattens_both_slopes_alike(stage, props):
+    primitive, material, images = with_bump(props, (0.48, 0.36, 0.8))
+    half = replace(material, normal_texture=replace(material.normal_texture, scale=0.5))
+    expected = np.array([0.24, 0.18, 0.8]) / np.linalg.norm([0.24, 0.18, 0.8])
+    assert (
+        np.abs(middle(stage.draw(primitive, half, images=images, with_inputs=True)) - expected).max() <= 0.01
+    )
 
 
 def test_without_texture_coordinates_there_are_no_bumps(stage, props):
