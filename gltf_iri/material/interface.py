@@ -41,6 +41,10 @@ _OWN_GUARD: Mapping[str, str] = {
 }
 
 
+# Number of components to type.
+_GLSL_TYPES: Mapping[int, str] = {1: "float", 2: "vec2", 3: "vec3", 4: "vec4"}
+
+
 @dataclass(frozen=True, slots=True)
 class Uniform:
     """One uniform: declared behind `guard` ("" always, "!X" unless X), filled by `read`."""
@@ -143,7 +147,7 @@ def _texture_guard(slot: str) -> str:
 
 
 def _glsl_type(row: Property) -> str:
-    return "float" if row.kind is Kind.NUMBER else f"vec{row.length}"
+    return _GLSL_TYPES[row.length]
 
 
 UNIFORMS: tuple[Uniform, ...] = tuple(_uniforms())
@@ -207,6 +211,7 @@ def _declaration(uniform: Uniform) -> str:
 def _sampler_lines(sampler: Sampler) -> list[str]:
     slot, row = sampler.slot, sampler.row
     stored = "as sRGB, sampled as linear" if row.colour_space == "srgb" else "linear"
+    sampled = _GLSL_TYPES[len(row.channels)]
     return [
         f"// {row.about} Reads {row.channels.upper()}, stored {stored}.",
         f"uniform sampler2D {sampler.name};",
@@ -215,7 +220,7 @@ def _sampler_lines(sampler: Sampler) -> list[str]:
         f"vec2 {slot}_uv(vec2 uv0, vec2 uv1) {{",
         f"    return (u_{slot}_uv_transform * vec3(u_{slot}_uv_set == 0 ? uv0 : uv1, 1.0)).xy;",
         "}",
-        f"vec4 sample_{slot}(vec2 uv0, vec2 uv1) {{",
-        f"    return texture({sampler.name}, {slot}_uv(uv0, uv1));",
+        f"{sampled} sample_{slot}(vec2 uv0, vec2 uv1) {{",
+        f"    return texture({sampler.name}, {slot}_uv(uv0, uv1)).{row.channels};",
         "}",
     ]

@@ -52,7 +52,7 @@ vec2 base_color_uv(vec2 uv0, vec2 uv1) {
     return (u_base_color_uv_transform * vec3(u_base_color_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
 }
 vec4 sample_base_color(vec2 uv0, vec2 uv1) {
-    return texture(u_base_color_texture, base_color_uv(uv0, uv1));
+    return texture(u_base_color_texture, base_color_uv(uv0, uv1)).rgba;
 }
 #endif
 
@@ -64,8 +64,8 @@ uniform int u_metallic_roughness_uv_set;
 vec2 metallic_roughness_uv(vec2 uv0, vec2 uv1) {
     return (u_metallic_roughness_uv_transform * vec3(u_metallic_roughness_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
 }
-vec4 sample_metallic_roughness(vec2 uv0, vec2 uv1) {
-    return texture(u_metallic_roughness_texture, metallic_roughness_uv(uv0, uv1));
+vec2 sample_metallic_roughness(vec2 uv0, vec2 uv1) {
+    return texture(u_metallic_roughness_texture, metallic_roughness_uv(uv0, uv1)).gb;
 }
 #endif
 
@@ -79,8 +79,8 @@ uniform int u_normal_uv_set;
 vec2 normal_uv(vec2 uv0, vec2 uv1) {
     return (u_normal_uv_transform * vec3(u_normal_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
 }
-vec4 sample_normal(vec2 uv0, vec2 uv1) {
-    return texture(u_normal_texture, normal_uv(uv0, uv1));
+vec3 sample_normal(vec2 uv0, vec2 uv1) {
+    return texture(u_normal_texture, normal_uv(uv0, uv1)).rgb;
 }
 #endif
 
@@ -94,8 +94,8 @@ uniform int u_occlusion_uv_set;
 vec2 occlusion_uv(vec2 uv0, vec2 uv1) {
     return (u_occlusion_uv_transform * vec3(u_occlusion_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
 }
-vec4 sample_occlusion(vec2 uv0, vec2 uv1) {
-    return texture(u_occlusion_texture, occlusion_uv(uv0, uv1));
+float sample_occlusion(vec2 uv0, vec2 uv1) {
+    return texture(u_occlusion_texture, occlusion_uv(uv0, uv1)).r;
 }
 #endif
 
@@ -107,8 +107,8 @@ uniform int u_emissive_uv_set;
 vec2 emissive_uv(vec2 uv0, vec2 uv1) {
     return (u_emissive_uv_transform * vec3(u_emissive_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
 }
-vec4 sample_emissive(vec2 uv0, vec2 uv1) {
-    return texture(u_emissive_texture, emissive_uv(uv0, uv1));
+vec3 sample_emissive(vec2 uv0, vec2 uv1) {
+    return texture(u_emissive_texture, emissive_uv(uv0, uv1)).rgb;
 }
 #endif
 
@@ -120,8 +120,8 @@ uniform int u_specular_uv_set;
 vec2 specular_uv(vec2 uv0, vec2 uv1) {
     return (u_specular_uv_transform * vec3(u_specular_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
 }
-vec4 sample_specular(vec2 uv0, vec2 uv1) {
-    return texture(u_specular_texture, specular_uv(uv0, uv1));
+float sample_specular(vec2 uv0, vec2 uv1) {
+    return texture(u_specular_texture, specular_uv(uv0, uv1)).a;
 }
 #endif
 
@@ -133,8 +133,8 @@ uniform int u_specular_color_uv_set;
 vec2 specular_color_uv(vec2 uv0, vec2 uv1) {
     return (u_specular_color_uv_transform * vec3(u_specular_color_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
 }
-vec4 sample_specular_color(vec2 uv0, vec2 uv1) {
-    return texture(u_specular_color_texture, specular_color_uv(uv0, uv1));
+vec3 sample_specular_color(vec2 uv0, vec2 uv1) {
+    return texture(u_specular_color_texture, specular_color_uv(uv0, uv1)).rgb;
 }
 #endif
 
@@ -146,8 +146,8 @@ uniform int u_iridescence_uv_set;
 vec2 iridescence_uv(vec2 uv0, vec2 uv1) {
     return (u_iridescence_uv_transform * vec3(u_iridescence_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
 }
-vec4 sample_iridescence(vec2 uv0, vec2 uv1) {
-    return texture(u_iridescence_texture, iridescence_uv(uv0, uv1));
+float sample_iridescence(vec2 uv0, vec2 uv1) {
+    return texture(u_iridescence_texture, iridescence_uv(uv0, uv1)).r;
 }
 #endif
 
@@ -159,7 +159,7 @@ uniform int u_iridescence_thickness_uv_set;
 vec2 iridescence_thickness_uv(vec2 uv0, vec2 uv1) {
     return (u_iridescence_thickness_uv_transform * vec3(u_iridescence_thickness_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
 }
-vec4 sample_iridescence_thickness(vec2 uv0, vec2 uv1) {
-    return texture(u_iridescence_thickness_texture, iridescence_thickness_uv(uv0, uv1));
+float sample_iridescence_thickness(vec2 uv0, vec2 uv1) {
+    return texture(u_iridescence_thickness_texture, iridescence_thickness_uv(uv0, uv1)).g;
 }
 #endif

@@ -29,7 +29,7 @@ mat3 tangent_frame(vec3 normal, vec3 position, vec2 uv) {
 #endif
 
 vec3 mapped_normal(mat3 frame, vec2 uv0, vec2 uv1) {
-    vec3 bump = sample_normal(uv0, uv1).xyz * 2.0 - 1.0;
+    vec3 bump = sample_normal(uv0, uv1) * 2.0 - 1.0;
     return normalize(frame * (bump * vec3(u_normal_scale, u_normal_scale, 1.0)));
 }
 #endif

@@ -35,7 +35,7 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
 #ifdef HAS_EMISSION
     s.emission = u_emissive_factor;
 #ifdef HAS_EMISSIVE_TEXTURE
-    s.emission *= sample_emissive(uv0, uv1).rgb;
+    s.emission *= sample_emissive(uv0, uv1);
 #endif
 #endif
 
@@ -45,16 +45,16 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
     s.metallic = u_metallic_factor;
     s.perceptual_roughness = u_roughness_factor;
 #ifdef HAS_METALLIC_ROUGHNESS_TEXTURE
-    vec4 metallic_roughness = sample_metallic_roughness(uv0, uv1);
-    s.metallic *= metallic_roughness.b;
-    s.perceptual_roughness *= metallic_roughness.g;
+    vec2 roughness_metallic = sample_metallic_roughness(uv0, uv1);
+    s.perceptual_roughness *= roughness_metallic.x;
+    s.metallic *= roughness_metallic.y;
 #endif
 #endif
     s.alpha_roughness = max(sq(s.perceptual_roughness), ALPHA_MIN);
 
     s.occlusion = 1.0;
 #ifdef HAS_OCCLUSION_TEXTURE
-    s.occlusion += u_occlusion_strength * (sample_occlusion(uv0, uv1).r - 1.0);
+    s.occlusion += u_occlusion_strength * (sample_occlusion(uv0, uv1) - 1.0);
 #endif
 
     s.dielectric_f0 = vec3(0.0);
@@ -65,10 +65,10 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
     s.specular_weight = u_specular_factor;
     s.dielectric_f0 *= u_specular_color_factor;
 #ifdef HAS_SPECULAR_TEXTURE
-    s.specular_weight *= sample_specular(uv0, uv1).a;
+    s.specular_weight *= sample_specular(uv0, uv1);
 #endif
 #ifdef HAS_SPECULAR_COLOR_TEXTURE
-    s.dielectric_f0 *= sample_specular_color(uv0, uv1).rgb;
+    s.dielectric_f0 *= sample_specular_color(uv0, uv1);
 #endif
     s.dielectric_f0 = min(s.dielectric_f0, vec3(1.0));  // the tint may exceed 1, a reflectance may not
 #endif
@@ -77,12 +77,12 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
 #ifdef HAS_IRIDESCENCE
     s.film_strength = u_iridescence_factor;
 #ifdef HAS_IRIDESCENCE_TEXTURE
-    s.film_strength *= sample_iridescence(uv0, uv1).r;
+    s.film_strength *= sample_iridescence(uv0, uv1);
 #endif
     s.film_ior = u_iridescence_film_ior;
     s.film_thickness_nm = u_iridescence_thickness_max_nm;
 #ifdef HAS_IRIDESCENCE_THICKNESS_TEXTURE
-    float thickness = sample_iridescence_thickness(uv0, uv1).g;
+    float thickness = sample_iridescence_thickness(uv0, uv1);
     s.film_thickness_nm = mix(u_iridescence_thickness_min_nm, u_iridescence_thickness_max_nm, thickness);
 #endif
 #endif

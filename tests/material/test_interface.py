@@ -28,6 +28,7 @@ from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.material.specular import Specular
 from gltf_iri.material.texture import NormalTextureInfo, OcclusionTextureInfo, TextureInfo, TextureTransform
 from gltf_iri.planning.effects import Effect
+from gltf_iri.resources import shader_root
 
 ALL_DEFINES = frozenset(effect.define for effect in Effect) - {Effect.UNLIT.define}
 
@@ -126,6 +127,19 @@ def test_an_absent_extension_gives_the_default_of_its_rows():
     assert values["u_specular_factor"] == 1.0
     assert values["u_emissive_factor"] == (0.0, 0.0, 0.0)
     assert values["u_iridescence_factor"] == 0.0
+
+
+def test_a_texture_is_sampled_in_the_channels_of_its_row():
+    functions = dict(re.findall(r"(\w+ sample_\w+)\(.*\n    return texture\(.*\)(.*);", interface_glsl()))
+    types = {1: "float", 2: "vec2", 3: "vec3", 4: "vec4"}
+    assert functions == {
+        f"{types[len(s.row.channels)]} sample_{s.slot}": f".{s.row.channels}" for s in SAMPLERS
+    }
+
+
+@pytest.mark.parametrize("path", sorted(shader_root().glob("material/*.glsl")), ids=lambda path: path.name)
+def test_no_shader_chooses_channels_itself(path):
+    assert not re.findall(r"sample_\w+\([^)]*\)\.\w+", path.read_text(encoding="utf-8"))
 
 
 def transformed(transform: TextureTransform, uv: tuple[float, float]) -> np.ndarray:
