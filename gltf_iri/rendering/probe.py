@@ -7,6 +7,7 @@ texture, filter or framebuffer lies between the arrays and the function.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Evaluation, Film
+from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import METHODS, find_method
 from gltf_iri.rendering.context import renderer_name
 from gltf_iri.rendering.source import ShaderSource, assemble_text, build_program
@@ -38,11 +40,12 @@ class Probe:
         # Nothing is drawn into it; without a window OpenGL refuses to run at all until something is bound.
         self._scope = context.scope(context.simple_framebuffer((1, 1)))
 
-    def evaluate(self, method: str, film: Film) -> Evaluation:
+    def evaluate(self, method: str, film: Film, *, white: str = "D65") -> Evaluation:
         """Return the reflectance of `film` by the GLSL twin of `method`, with `backend` naming the renderer.
 
-        Same signature as the Python evaluators; arguments are rounded to float32. Raises UsageError where the
-        method is unknown or has no GLSL twin.
+        Same signature as the Python evaluators'; arguments are rounded to float32. GLSL cannot tell where the
+        text leaves a value undefined: those rows are listed by the Python twin. Raises UsageError where
+        the method or the white is unknown or the method has no GLSL twin.
         """
         function = find_method(method).glsl_function
         if function is None:
@@ -54,7 +57,8 @@ class Probe:
             [film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1],
             argument_types=["float", "float", "vec3", "float", "float"],
         )
-        return Evaluation(rgb.astype(np.float64), method, "D65", backend=renderer_name(self._context))
+        twin = evaluate(method, film, white=white)
+        return replace(twin, rgb=rgb.astype(np.float64), backend=renderer_name(self._context))
 
     def call(
         self,

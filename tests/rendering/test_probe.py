@@ -8,6 +8,7 @@ import pytest
 
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0
+from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.rendering.context import renderer_name
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.rendering.source import ShaderError
@@ -41,6 +42,19 @@ def test_arguments_broadcast_as_in_the_evaluators(probe: Probe) -> None:
 def test_evaluation_names_method_and_renderer(probe: Probe, gl_context: moderngl.Context) -> None:
     made = probe.evaluate("khr-guarded", Film.of(0.5, 400.0, 1.3, base_from_f0([0.04] * 3)))
     assert (made.method, made.backend) == ("khr-guarded", renderer_name(gl_context))
+
+
+def test_probe_is_called_as_the_evaluators_and_lists_the_same_undefined_rows(probe: Probe) -> None:
+    film = Film.of(0.5, 400.0, 1.6, base_from_f0([[0.5] * 3, [0.04] * 3, [1.0] * 3]))
+    expected = evaluate("khr", film, white="E")
+    made = probe.evaluate("khr", film, white="E")
+    assert made.white == expected.white == "E"
+    assert len(expected.undefined) == 2
+    assert {case: rows.tolist() for case, rows in made.undefined.items()} == {
+        case: rows.tolist() for case, rows in expected.undefined.items()
+    }
+    with pytest.raises(UsageError, match="D65"):
+        probe.evaluate("khr", film, white="A")
 
 
 def test_no_rows_give_no_rows(probe: Probe) -> None:
