@@ -67,7 +67,9 @@ $(VENV)/.development: pyproject.toml | $(BIN)/python
 opengl = $(BIN)/python -c 'from gltf_iri.rendering.context import create_context; create_context().release()'
 
 $(VENV)/.opengl: | $(VENV)/.runtime
-	@$(opengl) 2>/dev/null || { $(call install,libegl1 libgl1,OpenGL is missing) && $(opengl); }
+	@$(opengl) 2>/dev/null || { $(call install,libegl1 libgl1,OpenGL is missing) && $(opengl) 2>/dev/null; } || { \
+	  echo "libegl1 and libgl1 are installed, yet OpenGL 3.3 does not start: this machine wants another driver." >&2; \
+	  exit 3; }
 	@touch $@
 
 # Only tests want it: where it cannot be installed, those are skipped and say so.
