@@ -85,3 +85,10 @@ def test_shading_inputs_say_that_blends_were_drawn_opaque(stage, props):
     frame = stage.draw(props.quad(), glass((1, 0, 0), 0.5), with_inputs=True)
     assert frame.inputs.colour[32, 32].tolist() == [1, 0, 0]
     assert any("opaque" in note for note in frame.notes)
+
+
+def test_alpha_equal_to_the_cutoff_is_kept(stage, props):
+    material = Material(
+        pbr=MetallicRoughness((1.0, 0.0, 0.0, 0.5)), alpha_mode="MASK", alpha_cutoff=0.5, unlit=Unlit()
+    )
+    assert stage.draw(props.quad(), material).rgba[32, 32].tolist() == [1, 0, 0, 1]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -41,6 +43,14 @@ def test_colour_textures_are_decoded_from_srgb(stage, props, float_textures, tol
     frame = stage.draw(props.quad(), material, images=images, float_textures=float_textures)
     expected = srgb_decode(np.array([188, 64, 10]) / 255)
     assert np.abs(frame.rgba[32, 32, :3] - expected).max() <= tolerance
+
+
+@pytest.mark.parametrize("float_textures", [False, True])
+def test_alpha_of_a_colour_texture_is_linear(stage, props, float_textures):
+    images = props.Images()
+    material = replace(unlit(images.add([[(255, 255, 255, 51)]])), alpha_mode="BLEND")
+    frame = stage.draw(props.quad(), material, images=images, float_textures=float_textures)
+    assert frame.rgba[32, 32, 3] == pytest.approx(0.2, abs=1e-6)
 
 
 @pytest.mark.parametrize("float_textures", [False, True])
