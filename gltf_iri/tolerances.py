@@ -1,6 +1,6 @@
-"""Every tolerance of the project, in one place, each with the reason for its size.
+"""The tolerances that reports state and that bound GLSL and truth, each with the reason for its size.
 
-Tests and reports read them from here; none is written down a second time.
+Tests and reports read them from here. A bound that belongs to one test stands in that test.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The one door for bytes: nothing outside the asset's folder, no network, nothing of unbounded size."""
+"""The only place that reads files of an asset: inside its folder, never the network, up to a stated size."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ def _steps(uri: str, pointer: str) -> list[str]:
 
 
 def _read(path: Path, max_bytes: int, pointer: str | None) -> bytes:
-    # O_NONBLOCK: opening a named pipe would otherwise wait for a writer for ever.
+    # O_NONBLOCK: opening a named pipe would otherwise wait for a writer without end.
     descriptor = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
     with os.fdopen(descriptor, "rb") as file:
         status = os.fstat(descriptor)

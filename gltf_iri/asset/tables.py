@@ -66,7 +66,7 @@ class Row:
     choices: tuple[int | str, ...] = ()
     is_open: bool = False  # extensions may add choices
     refers_to: str = ""  # a top-level array, or "animation.samplers" for the animation's own
-    table: str = ""  # of an OBJECT, or "" where only the type is core's affair
+    table: str = ""  # of an OBJECT, or "" where the core checks the type only
     min_items: int = 1
     max_items: int | None = None
     is_unique: bool = False

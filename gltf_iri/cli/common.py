@@ -19,7 +19,7 @@ import click
 __all__ = ["file_argument", "json_option", "material_label", "note", "print_json", "print_table", "printable"]
 __all__ += ["progress"]
 
-_LABEL_MAX = 60  # a name longer than this helps nobody and breaks tables
+_LABEL_MAX = 60  # a longer name would break the tables
 
 json_option = click.option("--json", "as_json", is_flag=True, help="Print one JSON object instead of text.")
 
@@ -31,7 +31,7 @@ file_argument = click.argument(
 def printable(text: str) -> str:
     """Return `text` on one line and without control characters or lone surrogates.
 
-    Names come from files that nobody vouches for; an escape sequence in one would steer the terminal.
+    Names come from untrusted files; an escape sequence in one would control the terminal.
     """
     return "".join(
         c if c.isprintable() else " " if c.isspace() else "\N{REPLACEMENT CHARACTER}" for c in text

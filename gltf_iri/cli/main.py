@@ -1,4 +1,4 @@
-"""The door: which verbs exist, and how every failure leaves the program.
+"""The entry: which verbs exist, and how every failure becomes a sentence and an exit code.
 
 This module runs before any verb, so it imports click and nothing else that takes time; a verb's module is
 imported only when that verb is called, and ``--help`` reads `VERBS` alone.
@@ -125,7 +125,7 @@ def _flushed(exit_code: int) -> int:
 
 
 def _reader_left() -> int:
-    """End quietly: `gltf-iri … | head` is no failure worth a word."""
+    """End without a message: in `gltf-iri … | head` it is normal that the reader stops early."""
     # The interpreter flushes stdout once more as it ends and would complain about the closed pipe.
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return _READER_LEFT

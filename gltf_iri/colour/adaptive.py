@@ -1,4 +1,4 @@
-"""The slow road to a colour, for spectra that no global polynomial resolves.
+"""The slow integration, for spectra that one polynomial over the whole range does not resolve.
 
 Gauss–Legendre panels between the kinks of the observer, halved where halving still moves the colour: narrow
 resonances (grazing light between a film and a bright metal), films of many micrometres, kinked index tables.

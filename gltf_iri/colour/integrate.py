@@ -1,4 +1,4 @@
-"""Reflectance spectra to colour, refined until the colour stands still.
+"""Reflectance spectra to colour, refined until the colour no longer changes.
 
 RGB = M ∫ R(λ) P(λ) (x̄, ȳ, z̄) dλ,  each row scaled so that R ≡ 1 is (1, 1, 1) under the white P.
 """

@@ -96,7 +96,7 @@ def _panels(degree: int, white: White) -> tuple[Float64, Float64]:
     wavelength_nm = (edges_nm[:-1, None] + half + half * nodes).reshape(-1)
     density = colour_density(wavelength_nm, white) * (half * gauss).reshape(-1, 1)
     x = (1.0 / wavelength_nm - _MIDDLE_PER_NM) / HALF_BANDWIDTH_PER_NM
-    return np.arccos(np.clip(x, -1.0, 1.0)), density  # rounding may put an end a hair outside [−1, 1]
+    return np.arccos(np.clip(x, -1.0, 1.0)), density  # rounding may put an end outside [−1, 1]
 
 
 def _density(wavelength_nm: Float64, white: White) -> Float64:

@@ -19,7 +19,7 @@ Mask = NDArray[np.bool_]
 # Base colours keep their hue and lightness, so that what differs before it differs after it.
 TONEMAP: Final = "neutral"
 
-# Readable on white and on near-black alike, for the maps are transparent around their pixels.
+# Readable on white and on near-black: the maps are transparent around their pixels.
 _INK: Final = "#7d8590"
 _BAR_IN: Final = 0.9  # height below the map that its colour bar takes
 _GROUND: Final = (0.5, 0.5, 0.5, 0.3)

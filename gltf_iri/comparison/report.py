@@ -51,7 +51,7 @@ def _images(comparison: Comparison) -> dict[str, bytes]:
 def report_html(comparison: Comparison, images: dict[str, bytes]) -> str:
     """Return the page; `images` maps names of `write_report` to PNG bytes, which it carries as data URIs.
 
-    Names in assets come from strangers: everything is escaped, and the page runs no script and loads nothing.
+    Names in assets may hold markup: everything is escaped, and the page runs no script and loads nothing.
     """
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
 

@@ -1,4 +1,4 @@
-"""Method `spectral`, the truth: exact reflectance of both polarisations, integrated until it stands still.
+"""Method `spectral`, the truth: exact reflectance of both polarisations, integrated until it has converged.
 
 A base given by its F0 has one real index per channel, and each channel of the answer uses its own; equal
 channels are computed once. Indices may depend on the wavelength (`Base.index_at`, `Film.film_ior_at`).

@@ -55,7 +55,7 @@ def fresnel_mix(fresnel: ArrayLike) -> Layer:
 def rgb_mix(reflectance: ArrayLike) -> Layer:
     """A coloured layer: base · (1 − max(R, G, B)) + colour.
 
-    The base is weighted by the brightest channel, for 1 − colour would tint it with the opposite hue.
+    The base is weighted by the brightest channel: 1 − colour would tint it with the opposite hue.
     """
     colour = np.asarray(reflectance, np.float64)
     return Layer(colour, 1.0 - np.max(colour, axis=-1))

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from gltf_iri.material.emissive_strength import EmissiveStrength
 from gltf_iri.material.material import Material
+from gltf_iri.material.unlit import Unlit
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.verdict import Skip, Verdict, absent, texture_verdict
 
@@ -15,7 +16,7 @@ __all__ = ["core_verdicts", "dielectric_verdict", "metal_verdict"]
 def core_verdicts(material: Material) -> Iterator[tuple[Effect, Verdict]]:
     """Yield the verdict on each effect of the core material."""
     pbr = material.pbr
-    yield Effect.UNLIT, None if material.unlit is not None else absent("KHR_materials_unlit")
+    yield Effect.UNLIT, None if material.unlit is not None else absent(Unlit.EXTENSION)
     yield (
         Effect.BASE_COLOR_TEXTURE,
         texture_verdict(pbr.base_color_texture, "base color texture", _idle_base_color(material)),

@@ -1,8 +1,8 @@
 """Whether a film is called for, and which of its textures.
 
-A film that changes nothing is left out for every method that agrees that it changes nothing. The method `khr`
-does not: at an interface without contrast its text still reflects at grazing angles and its floor under the
-product of the reflectances still draws fringes, so to the letter it is drawn.
+A film without thickness or contrast changes nothing and is left out, except for the method `khr`: at an
+interface without contrast the text still reflects at grazing angles, and its lower limit for the product of
+the reflectances still draws fringes. To follow the text to the letter, `khr` draws such a film.
 """
 
 from __future__ import annotations

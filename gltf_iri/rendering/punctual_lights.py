@@ -1,4 +1,4 @@
-"""Punctual lights as a texture, for a scene may hold any number of them."""
+"""Punctual lights as a texture, because a scene may hold any number of them."""
 
 from __future__ import annotations
 

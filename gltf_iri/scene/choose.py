@@ -1,4 +1,4 @@
-"""What a caller names in a word or a number: a camera of the scene, an environment."""
+"""Finds the camera that a caller names by its index, and the environment named by a word or a path."""
 
 from __future__ import annotations
 

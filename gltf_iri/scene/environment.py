@@ -18,7 +18,7 @@ from gltf_iri.scene.studio import studio_radiance
 
 __all__ = ["read_environment", "studio", "white"]
 
-# Behind a model in the studio: a grey card, for the lamps are brighter than most of what they light.
+# Behind a model in the studio: a grey card, because the lamps are brighter than most of what they light.
 _STUDIO_BACKDROP = (0.18, 0.18, 0.18)
 
 Float32 = NDArray[np.float32]

@@ -16,7 +16,7 @@ __all__ = ["choose_scene", "local_matrix", "nodes_of_scene", "rotation_matrix", 
 Float64 = NDArray[np.float64]
 Json = Mapping[str, Any]
 
-# Exporters write float32 quaternions; a norm further from 1 than this is worth a word in the notes.
+# Exporters write float32 quaternions; a norm further from 1 than this is reported in the notes.
 _UNIT_QUATERNION_SLACK = 1e-3
 
 _TRANSFORM = frozenset({"matrix", "translation", "rotation", "scale"})

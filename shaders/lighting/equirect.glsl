@@ -2,7 +2,7 @@
 
 #include "common/math.glsl"
 
-// (u, v) = (½ + atan2(z, x) / 2π, acos(y) / π); acos as atan2, for near the poles acos keeps half of the digits.
+// (u, v) = (½ + atan2(z, x) / 2π, acos(y) / π); acos as atan2: near the poles acos keeps half of the digits.
 vec2 equirect_from_direction(vec3 direction) {
     float horizon = length(direction.xz);
     // atan(0, 0) is undefined; at the poles every column is the same place.

@@ -4,7 +4,7 @@
 #include "common/math.glsl"
 
 // n = (1 + √F0) / (1 − √F0) = (1 + √F0)² / (1 − F0), under air
-// KHR_materials_iridescence, Material Interfaces; the second form, for 1 − √F0 rounds away what tells bright metals
+// KHR_materials_iridescence, Material Interfaces; the second form: 1 − √F0 rounds away what tells bright metals
 // apart, while 1 − F0 is exact above ½.
 float fresnel0_to_ior(float f0) { return sq(1.0 + sqrt(f0)) / (1.0 - f0); }
 vec3 fresnel0_to_ior(vec3 f0) { return sq(1.0 + sqrt(f0)) / (1.0 - f0); }

@@ -31,7 +31,7 @@ void main() {
         // The rest of the cap shrinks as t², with weight 2t: the few facets far off the normal lie at its end.
         float t = (float(i) + 0.5) / float(CAP_STEPS);
         float z = 1.0 - (1.0 - sq(t)) * (1.0 + v_stretched.z);
-        float radius = sqrt(max(1.0 - sq(z), 0.0));  // rounding may leave z a trifle beyond −1
+        float radius = sqrt(max(1.0 - sq(z), 0.0));  // rounding may leave z slightly below −1
         vec2 ring = vec2(0.0);
         for (int j = 0; j < TURN_STEPS; ++j) {
             float turn = PI * (float(j) + 0.5) / float(TURN_STEPS);
