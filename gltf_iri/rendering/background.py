@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from gltf_iri.rendering.draw import bind
 from gltf_iri.rendering.source import compile_program
+from gltf_iri.rendering.uniforms import bind
 
 if TYPE_CHECKING:
     import moderngl

@@ -10,13 +10,13 @@ import numpy as np
 
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.rendering.fullscreen import set_uniforms
+from gltf_iri.rendering.uniforms import bind
 from gltf_iri.scene.model import Camera, Primitive
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["Draw", "bind", "draw_primitives"]
+__all__ = ["Draw", "draw_primitives"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,15 +34,6 @@ class Draw:
     def is_blended(self) -> bool:
         """True where the surface lets what is behind it through."""
         return self.plan.calls_for(Effect.ALPHA_BLEND)
-
-
-def bind(program: moderngl.Program, uniforms: dict[str, Any], textures: dict[str, moderngl.Texture]) -> None:
-    """Set the uniforms, and bind each texture that the program samples to a unit."""
-    set_uniforms(program, uniforms)
-    sampled = {name: texture for name, texture in textures.items() if name in program}
-    for unit, (name, texture) in enumerate(sampled.items()):
-        texture.use(unit)
-        set_uniforms(program, {name: unit})
 
 
 def draw_primitives(

@@ -6,18 +6,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from gltf_iri.rendering.source import compile_program
+from gltf_iri.rendering.uniforms import bind
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["compute_texture", "release_framebuffer", "set_uniforms"]
-
-
-def set_uniforms(program: moderngl.Program, values: Mapping[str, Any]) -> None:
-    """Set those uniforms that the compiler kept; one that no pixel depends on is gone from the program."""
-    for name, value in values.items():
-        if name in program:
-            program[name] = value
+__all__ = ["compute_texture", "release_framebuffer"]
 
 
 def release_framebuffer(context: moderngl.Context, framebuffer: moderngl.Framebuffer) -> None:
@@ -40,10 +34,7 @@ def compute_texture(
     program = compile_program(context, "pass/fullscreen.vert", fragment_entry)
     triangle = context.vertex_array(program, [])
     try:
-        set_uniforms(program, uniforms)
-        for unit, (name, texture) in enumerate(textures.items()):
-            texture.use(unit)
-            set_uniforms(program, {name: unit})
+        bind(program, uniforms, textures)
         context.disable(context.DEPTH_TEST | context.CULL_FACE | context.BLEND)
         framebuffer.use()
         triangle.render(vertices=3)
