@@ -13,5 +13,5 @@
 
 // Outside is air: KHR_materials_iridescence ignores a clearcoat's interface.
 vec3 film_fresnel(Surface s, vec3 base_f0, float cos_theta) {
-    return FILM_FRESNEL(1.0, s.film_ior, base_f0, s.film_thickness_nm, cos_theta);
+    return FILM_FRESNEL(1.0, s.film_ior, base_f0, s.iridescence_thickness_nm, cos_theta);
 }

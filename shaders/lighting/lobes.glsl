@@ -30,9 +30,9 @@ Layer dielectric_layer(Surface s, Lobe lobe) {
 #ifdef HAS_IRIDESCENCE
     vec3 film = film_fresnel(s, s.specular_weight * s.dielectric_f0, lobe.cos_theta) * (lobe.slope + lobe.offset);
 #ifdef LAYERING_SPECULAR
-    return iridescent_dielectric_layer_specular(s.film_strength, s.specular_weight, plain, film);
+    return iridescent_dielectric_layer_specular(s.iridescence_factor, s.specular_weight, plain, film);
 #else
-    return iridescent_dielectric_layer(s.film_strength, plain, film);
+    return iridescent_dielectric_layer(s.iridescence_factor, plain, film);
 #endif
 #else
     return rgb_mix(s.specular_weight * plain);
@@ -45,7 +45,7 @@ vec3 metal_reflectance(Surface s, Lobe lobe) {
     vec3 plain = plain_reflectance(lobe, s.base_color);
 #ifdef HAS_IRIDESCENCE
     vec3 film = film_fresnel(s, s.base_color, lobe.cos_theta) * (lobe.slope + lobe.offset);
-    return iridescent_conductor_layer(s.film_strength, plain, film);
+    return iridescent_conductor_layer(s.iridescence_factor, plain, film);
 #else
     return plain;
 #endif

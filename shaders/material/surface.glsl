@@ -15,9 +15,9 @@ struct Surface {
     vec3 dielectric_f0;     // before the specular weight
     float specular_weight;
 #ifdef HAS_IRIDESCENCE
-    float film_strength;
+    float iridescence_factor;
     float film_ior;
-    float film_thickness_nm;
+    float iridescence_thickness_nm;
 #endif
 };
 
@@ -75,15 +75,15 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
 #endif
 
 #ifdef HAS_IRIDESCENCE
-    s.film_strength = u_iridescence_factor;
+    s.iridescence_factor = u_iridescence_factor;
 #ifdef HAS_IRIDESCENCE_TEXTURE
-    s.film_strength *= sample_iridescence(uv0, uv1);
+    s.iridescence_factor *= sample_iridescence(uv0, uv1);
 #endif
     s.film_ior = u_iridescence_film_ior;
-    s.film_thickness_nm = u_iridescence_thickness_max_nm;
+    s.iridescence_thickness_nm = u_iridescence_thickness_max_nm;
 #ifdef HAS_IRIDESCENCE_THICKNESS_TEXTURE
     float thickness = sample_iridescence_thickness(uv0, uv1);
-    s.film_thickness_nm = mix(u_iridescence_thickness_min_nm, u_iridescence_thickness_max_nm, thickness);
+    s.iridescence_thickness_nm = mix(u_iridescence_thickness_min_nm, u_iridescence_thickness_max_nm, thickness);
 #endif
 #endif
     return s;
