@@ -125,6 +125,8 @@ def _tell(comparison: Comparison, paths: Mapping[str, Path], *, as_json: bool) -
             note(f"material {label}: {effect} is not drawn: {reason}.")
     for text in comparison.notes:
         note(text)
+    if comparison.materials and not comparison.whole.glsl_vs_python.rough.pixels:
+        note("No pixel is rough enough to be judged; the agreement above is reported only.")
     click.echo(f"The page is {paths['page']}.")
 
 

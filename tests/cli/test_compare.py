@@ -46,3 +46,9 @@ def test_an_empty_picture_is_told(gl_context, tmp_path, capsys):
     assert run(["compare", str(flat), "-o", str(tmp_path / "out"), "--size", "24x16"]) == 0
     assert "note: Nothing of the model is in the picture" in capsys.readouterr().err
     assert "Nothing of the model" in (tmp_path / "out" / "report.json").read_text()
+
+
+def test_a_picture_without_rough_pixels_is_said_to_be_unjudged(gl_context, tmp_path, capsys):
+    bubble = ROOT / "samples" / "soap-bubble" / "soap-bubble.glb"
+    assert run(["compare", str(bubble), "-o", str(tmp_path / "out"), "--size", "24x16"]) == 0
+    assert "note: No pixel is rough enough to be judged" in capsys.readouterr().err
