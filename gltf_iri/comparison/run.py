@@ -65,7 +65,7 @@ def compare(
         renderer.release()
     shot = Shot(
         file=model.path.name,
-        materials=(*model.materials, Material()),  # index −1, the default material, is the last
+        materials=(*model.materials, Material()),  # DEFAULT_MATERIAL, −1, finds the last
         plans=plans,
         lights=scene.lights,
         camera=camera,

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from gltf_iri.asset.limits import MAX_NUMBER
 from gltf_iri.errors import AssetError, UsageError
-from gltf_iri.scene.framing import box_around, fit_distance, fit_eye
+from gltf_iri.scene.framing import fit_eye
 from gltf_iri.scene.model import Camera, Scene
 
-__all__ = ["frame_scene", "orbit_scene", "projection_matrix", "read_camera"]
+__all__ = ["frame_scene", "projection_matrix", "read_camera"]
 
 Float64 = NDArray[np.float64]
 
@@ -113,27 +113,6 @@ def frame_scene(
     axes = _axes(azimuth_rad, elevation_rad)
     eye = fit_eye(points @ axes.T, *_slopes(yfov_rad, aspect))
     return _camera_at(points, axes, axes.T @ eye, yfov_rad)
-
-
-def orbit_scene(
-    scene: Scene,
-    *,
-    aspect: float,
-    count: int,
-    elevation_rad: float = ELEVATION_RAD,
-    yfov_rad: float = YFOV_RAD,
-) -> tuple[Camera, ...]:
-    """Return `count` cameras on one circle around the middle of the scene, all equally far from it.
-
-    The first stands at `AZIMUTH_RAD`; all look at the middle of the bounds, so that nothing wobbles.
-    """
-    points = scene.vertices()
-    low, high = box_around(points)
-    middle = 0.5 * (low + high)
-    turns = [_axes(AZIMUTH_RAD + 2.0 * math.pi * i / count, elevation_rad) for i in range(count)]
-    slopes = _slopes(yfov_rad, aspect)
-    distance = max(fit_distance((points - middle) @ axes.T, *slopes) for axes in turns)
-    return tuple(_camera_at(points, axes, middle + distance * axes[2], yfov_rad) for axes in turns)
 
 
 def _slopes(yfov_rad: float, aspect: float) -> tuple[float, float]:

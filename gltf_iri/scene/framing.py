@@ -5,14 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["box_around", "fit_distance", "fit_eye"]
+__all__ = ["fit_eye"]
 
 Float64 = NDArray[np.float64]
-
-
-def box_around(points: Float64) -> tuple[Float64, Float64]:
-    """Return the corners (lowest, highest) of the box around `points` (n, 3), each (3,)."""
-    return points.min(axis=0), points.max(axis=0)
 
 
 def fit_eye(points: Float64, slope_x: float, slope_y: float) -> Float64:
@@ -33,14 +28,7 @@ def fit_eye(points: Float64, slope_x: float, slope_y: float) -> Float64:
     return eye
 
 
-def fit_distance(points: Float64, slope_x: float, slope_y: float) -> float:
-    """Return the distance at which an eye on the z axis, looking at the origin, sees all `points` (n, 3)."""
-    beside = np.maximum(np.abs(points[:, 0]) / slope_x, np.abs(points[:, 1]) / slope_y)
-    return float(max(np.max(points[:, 2] + beside), points[:, 2].max() + _least_distance(points)))
-
-
 def _least_distance(points: Float64) -> float:
     """Return how far the eye keeps from the nearest point, so that neither a speck nor an edge is at 0."""
-    low, high = box_around(points)
-    size = float(np.linalg.norm(high - low))
+    size = float(np.linalg.norm(points.max(axis=0) - points.min(axis=0)))
     return 0.1 * size if size > 0.0 else 1.0

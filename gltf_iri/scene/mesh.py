@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.errors import AssetError
+from gltf_iri.material.material import DEFAULT_MATERIAL
 from gltf_iri.scene.model import Primitive
 from gltf_iri.scene.morph import apply_morph_targets
 from gltf_iri.scene.normals import face_normals, repaired_normals, unit
@@ -89,7 +90,7 @@ def read_primitive(
     return Primitive(
         pointer=pointer,
         node_name="",
-        material=description.get("material", -1),
+        material=description.get("material", DEFAULT_MATERIAL),
         positions=np.ascontiguousarray(attributes["POSITION"]),
         normals=normals,
         triangles=triangles,

@@ -31,7 +31,7 @@ class Primitive:
 
     pointer: str  # JSON Pointer of the glTF primitive
     node_name: str
-    material: int  # index into Scene materials; −1 for glTF's default material
+    material: int  # index into the file's materials, or DEFAULT_MATERIAL
     positions: Float32  # (n, 3)
     normals: Float32  # (n, 3), unit length
     triangles: UInt32  # (m, 3), indices of vertices
