@@ -57,6 +57,7 @@ class Renderer:
         size: tuple[int, int],
         samples: int = 4,
         float_textures: bool = False,
+        sharp_textures: bool = False,
         with_inputs: bool = False,
     ) -> Frame:
         """Return the picture of `scene`; its milliseconds are drawing alone, without uploads and compiling.
@@ -68,6 +69,7 @@ class Renderer:
         size : width and height in pixels.
         samples : samples a pixel; 0 or 1 for its centre alone.
         float_textures : textures as linear float32 (see `TextureStore`).
+        sharp_textures : textures without minification, as the CPU reference samples them.
         with_inputs : also return what each pixel's centre was shaded with. There is then no background, and
             blended materials are drawn as if opaque: an input belongs to one surface.
 
@@ -82,7 +84,9 @@ class Renderer:
             check_method(plan.method)
         surroundings = plan_scene_effects(scene, environment)
         geometry = GeometryStore(self.context)
-        textures = TextureStore(self.context, model.document, float_textures=float_textures)
+        textures = TextureStore(
+            self.context, model.document, float_textures=float_textures, base_level_only=sharp_textures
+        )
         targets = Targets(self.context, size, samples=samples, count=len(INPUT_TARGETS) if with_inputs else 1)
         lights = lights_texture(self.context, scene.lights)
         light = {"u_lights": lights}

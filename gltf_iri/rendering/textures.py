@@ -33,14 +33,22 @@ class TextureStore:
 
     float_textures : 32-bit linear texels decoded in float64, instead of the file's own 8 bits. Filtering then
         interpolates exact values, which is what float64 Python can be held against.
+    base_level_only : neither mipmaps nor the minification filter, but the texels themselves through the
+        magnification filter at every distance, which is what the CPU reference samples.
     """
 
     def __init__(
-        self, context: moderngl.Context, document: Document, *, float_textures: bool = False
+        self,
+        context: moderngl.Context,
+        document: Document,
+        *,
+        float_textures: bool = False,
+        base_level_only: bool = False,
     ) -> None:
         self._context = context
         self._document = document
         self._float_textures = float_textures
+        self._base_level_only = base_level_only
         self._textures: dict[tuple[Texture, str], moderngl.Texture] = {}
 
     def get(self, binding: TextureBinding) -> moderngl.Texture:
@@ -71,9 +79,10 @@ class TextureStore:
         else:
             stored = _SRGB8_ALPHA8 if is_srgb else _RGBA8
             texture = self._context.texture(size, 4, pixels.tobytes(), internal_format=stored)
-        if sampler.min_filter not in _WITHOUT_MIPMAPS:
+        min_filter = sampler.mag_filter if self._base_level_only else sampler.min_filter
+        if min_filter not in _WITHOUT_MIPMAPS:
             texture.build_mipmaps()
-        texture.filter = (sampler.min_filter, sampler.mag_filter)
+        texture.filter = (min_filter, sampler.mag_filter)
         _set_wrapping(texture, sampler)
         return texture
 
