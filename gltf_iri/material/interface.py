@@ -11,13 +11,19 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from gltf_iri.material.anisotropy import Anisotropy
+from gltf_iri.material.clearcoat import Clearcoat
+from gltf_iri.material.dispersion import Dispersion
 from gltf_iri.material.emissive_strength import EmissiveStrength
 from gltf_iri.material.fields import ColourSpace, Kind, Property, properties
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
+from gltf_iri.material.sheen import Sheen
 from gltf_iri.material.specular import Specular
 from gltf_iri.material.texture import TextureInfo
+from gltf_iri.material.transmission import Transmission
+from gltf_iri.material.volume import Volume
 
 __all__ = ["SAMPLERS", "UNIFORMS", "Sampler", "TextureBinding", "Uniform"]
 __all__ += ["interface_glsl", "material_textures", "material_uniforms"]
@@ -25,13 +31,21 @@ __all__ += ["interface_glsl", "material_textures", "material_uniforms"]
 Value = int | float | tuple[float, ...]
 
 # Where the shader's rows stand: attribute of Material ("" itself), prefix of the names, dataclass, guard.
-# Transmission, volume and clearcoat are not drawn and so have no declarations.
 _PARTS: tuple[tuple[str, str, type, str], ...] = (
     ("pbr", "", MetallicRoughness, "!HAS_UNLIT"),
     ("", "", Material, ""),
     ("specular", "specular_", Specular, "HAS_SPECULAR"),
     ("iridescence", "iridescence_", Iridescence, "HAS_IRIDESCENCE"),
+    ("anisotropy", "anisotropy_", Anisotropy, "HAS_ANISOTROPY"),
+    ("transmission", "transmission_", Transmission, "HAS_TRANSMISSION"),
+    ("volume", "volume_", Volume, "HAS_VOLUME"),
+    ("dispersion", "", Dispersion, "HAS_DISPERSION"),
+    ("sheen", "sheen_", Sheen, "HAS_SHEEN"),
+    ("clearcoat", "clearcoat_", Clearcoat, "HAS_CLEARCOAT"),
 )
+
+# Rows that reach the shader only in what is computed from them.
+_NOT_SENT: frozenset[str] = frozenset({"volume_attenuation_distance_m", "volume_attenuation_color"})
 
 # Factors whose guard is not their part's. An unlit material still has its base colour.
 _OWN_GUARD: Mapping[str, str] = {
@@ -105,12 +119,22 @@ def _uniforms() -> Iterator[Uniform]:
             name = prefix + attribute
             if row.kind is Kind.TEXTURE:
                 yield from _texture_uniforms(_slot(name), row, _reader(part, attribute, cls))
-            elif row.kind in (Kind.NUMBER, Kind.VECTOR):
+            elif row.kind in (Kind.NUMBER, Kind.VECTOR) and name not in _NOT_SENT:
                 read = _COMBINED.get(name, _reader(part, attribute, cls))
                 about = _ABOUT_COMBINED.get(name, row.about)
                 yield Uniform(f"u_{name}", _glsl_type(row), _OWN_GUARD.get(name, part_guard), about, read)
     about = "Reflectance of the base at normal incidence under air, from its refractive index."
     yield Uniform("u_dielectric_f0", "float", "HAS_DIELECTRIC", about, lambda m: (m.ior or Ior()).f0)
+    about = "Refractive index of the inside."
+    yield Uniform("u_volume_ior", "float", "HAS_VOLUME", about, lambda m: (m.ior or Ior()).ior)
+    about = "Absorption: light keeps exp(−absorption · path)."
+    yield Uniform(
+        "u_volume_absorption_per_m",
+        "vec3",
+        "HAS_VOLUME",
+        about,
+        lambda m: (m.volume or Volume()).absorption_per_m,
+    )
 
 
 def _texture_uniforms(

@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Final
 
+from gltf_iri.material.anisotropy import Anisotropy
 from gltf_iri.material.clearcoat import Clearcoat
+from gltf_iri.material.dispersion import Dispersion
 from gltf_iri.material.emissive_strength import EmissiveStrength
 from gltf_iri.material.fields import choice, extension, flag, nested, number, text, texture_info, vector
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.material.sheen import Sheen
 from gltf_iri.material.specular import Specular
 from gltf_iri.material.texture import NormalTextureInfo, OcclusionTextureInfo, TextureInfo
 from gltf_iri.material.transmission import Transmission
@@ -74,6 +77,9 @@ class Material:
     unlit: Unlit | None = extension(Unlit, "No lighting.")
     transmission: Transmission | None = extension(Transmission, "Light passes through.")
     volume: Volume | None = extension(Volume, "What is inside.")
+    dispersion: Dispersion | None = extension(Dispersion, "Colours that are bent differently.")
     clearcoat: Clearcoat | None = extension(Clearcoat, "A varnish.")
+    sheen: Sheen | None = extension(Sheen, "Fibres of a cloth.")
+    anisotropy: Anisotropy | None = extension(Anisotropy, "Highlights drawn out in one direction.")
 
     unread_extensions: tuple[str, ...] = ()  # present in the file, unknown to this program

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from gltf_iri.material.fields import number, texture_info, vector
 from gltf_iri.material.texture import TextureInfo
 
 __all__ = ["Volume"]
+
+# Keeps the logarithm of a black attenuation colour finite: black leaves 10⁻³⁰ after the distance.
+_ATTENUATION_MIN: Final = 1e-30
+# Keeps absorption · path a number where the distance is next to nothing and the path is 0.
+_ABSORPTION_MAX_PER_M: Final = 1e30
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,3 +45,17 @@ class Volume:
         high=1.0,
         colour_space="linear",
     )
+
+    @property
+    def absorption_per_m(self) -> tuple[float, float, float]:
+        """Beer's coefficients: light keeps exp(−absorption · path), −ln(colour) / distance each.
+
+        KHR_materials_volume, Attenuation.
+        """
+        red, green, blue = (
+            min(
+                -math.log(max(channel, _ATTENUATION_MIN)) / self.attenuation_distance_m, _ABSORPTION_MAX_PER_M
+            )
+            for channel in self.attenuation_color
+        )
+        return red, green, blue

@@ -14,6 +14,7 @@ from gltf_iri.planning.extensions import extension_verdicts
 from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, film_verdicts, idle_film
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import DEFAULT_METHOD, Method, find_method
+from gltf_iri.planning.transmission import transmission_verdicts
 from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict
 
 if TYPE_CHECKING:
@@ -82,7 +83,12 @@ def plan_material(material: Material, index: int, *, method: str | None = None) 
 
 
 def _verdicts(material: Material, method: Method) -> Iterable[tuple[Effect, Verdict]]:
-    for decided in (core_verdicts(material), extension_verdicts(material), film_verdicts(material, method)):
+    for decided in (
+        core_verdicts(material),
+        extension_verdicts(material),
+        film_verdicts(material, method),
+        transmission_verdicts(material),
+    ):
         for effect, verdict in decided:
             yield effect, _under_unlit(effect, verdict) if material.unlit is not None else verdict
 

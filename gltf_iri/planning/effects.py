@@ -42,9 +42,20 @@ class Effect(Enum):
     IRIDESCENCE = "iridescence"
     IRIDESCENCE_TEXTURE = "iridescence-texture"
     IRIDESCENCE_THICKNESS_TEXTURE = "iridescence-thickness-texture"
+    ANISOTROPY = "anisotropy"
+    ANISOTROPY_TEXTURE = "anisotropy-texture"
     TRANSMISSION = "transmission"
+    TRANSMISSION_TEXTURE = "transmission-texture"
     VOLUME = "volume"
+    VOLUME_THICKNESS_TEXTURE = "volume-thickness-texture"
+    DISPERSION = "dispersion"
+    SHEEN = "sheen"
+    SHEEN_COLOR_TEXTURE = "sheen-color-texture"
+    SHEEN_ROUGHNESS_TEXTURE = "sheen-roughness-texture"
     CLEARCOAT = "clearcoat"
+    CLEARCOAT_TEXTURE = "clearcoat-texture"
+    CLEARCOAT_ROUGHNESS_TEXTURE = "clearcoat-roughness-texture"
+    CLEARCOAT_NORMAL_TEXTURE = "clearcoat-normal-texture"
 
     @property
     def define(self) -> str:

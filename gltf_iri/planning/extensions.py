@@ -1,28 +1,27 @@
-"""Which effects of the other material extensions are called for, and which of those are not drawn."""
+"""Which effects of the surface's extensions are called for: specular, anisotropy, sheen, clearcoat."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
+from gltf_iri.material.anisotropy import Anisotropy
 from gltf_iri.material.clearcoat import Clearcoat
 from gltf_iri.material.material import Material
+from gltf_iri.material.sheen import Sheen
 from gltf_iri.material.specular import Specular
-from gltf_iri.material.transmission import Transmission
-from gltf_iri.material.volume import Volume
 from gltf_iri.planning.core import dielectric_verdict
 from gltf_iri.planning.effects import Effect
-from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict, absent, texture_verdict
+from gltf_iri.planning.verdict import Skip, Verdict, absent, texture_verdict
 
 __all__ = ["extension_verdicts"]
 
 
 def extension_verdicts(material: Material) -> Iterator[tuple[Effect, Verdict]]:
-    """Yield the verdicts on specular and its textures, transmission, volume and clearcoat."""
+    """Yield the verdicts on specular, anisotropy, sheen, clearcoat, and on their textures."""
     yield from _specular(material)
-    transmission = _transmission(material)
-    yield Effect.TRANSMISSION, transmission
-    yield Effect.VOLUME, _volume(material, transmission)
-    yield Effect.CLEARCOAT, _clearcoat(material)
+    yield from _anisotropy(material)
+    yield from _sheen(material)
+    yield from _clearcoat(material)
 
 
 def _specular(material: Material) -> Iterator[tuple[Effect, Verdict]]:
@@ -49,30 +48,55 @@ def _specular(material: Material) -> Iterator[tuple[Effect, Verdict]]:
     )
 
 
-def _transmission(material: Material) -> Verdict:
-    if material.transmission is None:
-        return absent(Transmission.EXTENSION)
-    if material.transmission.factor == 0.0:
-        return Skip("the transmission factor is 0")
-    no_dielectric = dielectric_verdict(material)
-    if no_dielectric:
-        return Skip(f"only dielectrics transmit, and {no_dielectric.reason}")
-    return NotDrawn("recognised, drawn as opaque")
+def _anisotropy(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+    anisotropy = material.anisotropy
+    if anisotropy is None:
+        for effect in (Effect.ANISOTROPY, Effect.ANISOTROPY_TEXTURE):
+            yield effect, absent(Anisotropy.EXTENSION)
+        return
+    idle = "the anisotropy strength is 0" if anisotropy.strength == 0.0 else None
+    yield Effect.ANISOTROPY, Skip(idle) if idle else None
+    yield Effect.ANISOTROPY_TEXTURE, texture_verdict(anisotropy.texture, "anisotropy texture", idle)
 
 
-def _volume(material: Material, transmission: Verdict) -> Verdict:
-    if material.volume is None:
-        return absent(Volume.EXTENSION)
-    if material.volume.thickness_factor_m == 0.0:
-        return Skip("the thickness is 0: a thin wall has no inside")
-    if isinstance(transmission, Skip):
-        return Skip(f"no light enters: {transmission.reason}")
-    return NotDrawn("recognised, drawn as opaque: its inside is not to be seen")
+def _sheen(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+    sheen = material.sheen
+    if sheen is None:
+        for effect in (Effect.SHEEN, Effect.SHEEN_COLOR_TEXTURE, Effect.SHEEN_ROUGHNESS_TEXTURE):
+            yield effect, absent(Sheen.EXTENSION)
+        return
+    idle = None if any(sheen.color_factor) else "the sheen color factor is 0"
+    yield Effect.SHEEN, Skip(idle) if idle else None
+    yield Effect.SHEEN_COLOR_TEXTURE, texture_verdict(sheen.color_texture, "sheen color texture", idle)
+    if sheen.roughness_factor == 0.0:
+        idle = idle or "the sheen roughness factor is 0"
+    yield (
+        Effect.SHEEN_ROUGHNESS_TEXTURE,
+        texture_verdict(sheen.roughness_texture, "sheen roughness texture", idle),
+    )
 
 
-def _clearcoat(material: Material) -> Verdict:
-    if material.clearcoat is None:
-        return absent(Clearcoat.EXTENSION)
-    if material.clearcoat.factor == 0.0:
-        return Skip("the clearcoat factor is 0")
-    return NotDrawn("recognised, drawn without the coat")
+def _clearcoat(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+    coat = material.clearcoat
+    if coat is None:
+        for effect in (
+            Effect.CLEARCOAT,
+            Effect.CLEARCOAT_TEXTURE,
+            Effect.CLEARCOAT_ROUGHNESS_TEXTURE,
+            Effect.CLEARCOAT_NORMAL_TEXTURE,
+        ):
+            yield effect, absent(Clearcoat.EXTENSION)
+        return
+    none = "the clearcoat factor is 0" if coat.factor == 0.0 else None
+    yield Effect.CLEARCOAT, Skip(none) if none else None
+    yield Effect.CLEARCOAT_TEXTURE, texture_verdict(coat.texture, "clearcoat texture", none)
+    idle = none or ("the clearcoat roughness factor is 0" if coat.roughness_factor == 0.0 else None)
+    yield (
+        Effect.CLEARCOAT_ROUGHNESS_TEXTURE,
+        texture_verdict(coat.roughness_texture, "clearcoat roughness texture", idle),
+    )
+    idle = none or ("its scale is 0" if coat.normal_texture and coat.normal_texture.scale == 0.0 else None)
+    yield (
+        Effect.CLEARCOAT_NORMAL_TEXTURE,
+        texture_verdict(coat.normal_texture, "clearcoat normal texture", idle),
+    )

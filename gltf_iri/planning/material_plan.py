@@ -16,7 +16,7 @@ class MaterialPlan:
     """The effects to simulate, the method for the film, and the reason for everything left out.
 
     `skipped` holds effects that the material does not call for; `not_drawn` holds effects that it does call
-    for and that this program does not simulate yet, so that every report can name them. Together
+    for and that this program does not simulate, so that every report can name them. Together
     the three hold every effect of a material once; `absent` names those of `skipped` that the file does not
     mention at all, which lists for people leave out.
     """

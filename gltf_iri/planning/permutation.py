@@ -17,6 +17,9 @@ __all__ = ["LAYERING_SPECULAR", "permutation", "plan_scene_effects", "primitive_
 # The dielectric layering of the text's KHR_materials_specular section; without it, the core section's.
 LAYERING_SPECULAR: Final = "LAYERING_SPECULAR"
 
+# What is laid out along the tangents.
+_TANGENT_READERS: Final = (Effect.NORMAL_TEXTURE, Effect.ANISOTROPY, Effect.CLEARCOAT_NORMAL_TEXTURE)
+
 _LIGHTS: Final = (Effect.PUNCTUAL_LIGHTS, Effect.IMAGE_LIGHT)
 
 
@@ -45,13 +48,13 @@ def permutation(
 ) -> tuple[str, ...]:
     """Return the defines of the shader that draws a primitive with this plan under these lights, in order.
 
-    Effects that cannot be seen together are dropped: lights on unlit materials, tangents without a normal
-    map, occlusion without image light.
+    Effects that cannot be seen together are dropped: lights on unlit materials, tangents that
+    nothing is laid out along, occlusion without image light.
     """
     seen = {*plan.effects, *primitive, *scene}
     if Effect.UNLIT in seen:
         seen -= set(_LIGHTS)
-    if Effect.NORMAL_TEXTURE not in seen:
+    if seen.isdisjoint(_TANGENT_READERS):
         seen.discard(Effect.TANGENTS)
     if Effect.IMAGE_LIGHT not in seen:
         seen.discard(Effect.OCCLUSION_TEXTURE)

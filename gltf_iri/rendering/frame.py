@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["INPUT_TARGETS", "Frame", "ShadingInputs"]
+__all__ = ["INPUT_TARGETS", "LAYER_INPUT_TARGETS", "Frame", "ShadingInputs"]
 
 Float32 = NDArray[np.float32]
 
@@ -26,10 +26,28 @@ INPUT_TARGETS: tuple[tuple[str, str], ...] = (
     ("emission", "iridescence_thickness_nm"),
 )
 
+# A second set, drawn only where a plan calls for transmission, clearcoat, sheen or anisotropy. Image light
+# with occlusion, as above; "" pads.
+LAYER_INPUT_TARGETS: tuple[tuple[str, str], ...] = (
+    (
+        "transmitted_radiance",
+        "transmission",
+    ),  # along the refracted direction, what the inside absorbs taken off
+    ("clearcoat_normal", "clearcoat"),  # unit, turned towards the viewer
+    ("clearcoat_radiance", "clearcoat_roughness"),  # prefiltered, along the coat's mirror direction
+    ("sheen_color", "sheen_roughness"),
+    ("sheen_radiance", ""),  # prefiltered with the fibres' lobe
+    ("anisotropy_tangent", "anisotropy_strength"),  # world space, unit, in the surface; 0 where there is none
+    ("layer_albedos", ""),  # clearcoat: A and B at Nc·V; sheen: directional albedo at N·V
+)
+
 
 @dataclass(frozen=True, slots=True)
 class ShadingInputs:
-    """One array a quantity, float32, shape (height, width, 3) or (height, width); row 0 is the top."""
+    """One array a quantity, float32, shape (height, width, 3) or (height, width); row 0 is the top.
+
+    Quantities of `LAYER_INPUT_TARGETS` are 0 where no plan calls for their effect.
+    """
 
     colour: Float32
     material: NDArray[np.int32]  # index into the plan's materials, −1 where nothing was drawn
@@ -47,6 +65,18 @@ class ShadingInputs:
     dfg_b: Float32
     emission: Float32
     iridescence_thickness_nm: Float32
+    transmitted_radiance: Float32
+    transmission: Float32
+    clearcoat_normal: Float32
+    clearcoat: Float32
+    clearcoat_radiance: Float32
+    clearcoat_roughness: Float32
+    sheen_color: Float32
+    sheen_roughness: Float32
+    sheen_radiance: Float32
+    anisotropy_tangent: Float32
+    anisotropy_strength: Float32
+    layer_albedos: Float32
 
 
 @dataclass(frozen=True, slots=True)

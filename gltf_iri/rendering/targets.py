@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.errors import MissingCapabilityError, UsageError
-from gltf_iri.rendering.frame import INPUT_TARGETS, ShadingInputs
+from gltf_iri.rendering.frame import INPUT_TARGETS, LAYER_INPUT_TARGETS, ShadingInputs
 from gltf_iri.rendering.fullscreen import release_framebuffer
 
 if TYPE_CHECKING:
@@ -89,5 +89,10 @@ def shading_inputs(targets: Targets) -> ShadingInputs:
     for index, (colour, scalar) in enumerate(INPUT_TARGETS):
         pixels = targets.read(index)
         values[colour], values[scalar] = pixels[..., :3].copy(), pixels[..., 3].copy()
+    nothing = np.zeros_like(values["colour"])
+    for colour, scalar in LAYER_INPUT_TARGETS:
+        values[colour] = nothing
+        if scalar:
+            values[scalar] = nothing[..., 0]
     values["material"] = np.rint(values["material"]).astype(np.int32) - 1
     return ShadingInputs(**values)  # type: ignore[arg-type]

@@ -38,6 +38,46 @@ uniform float u_iridescence_thickness_min_nm;
 uniform float u_iridescence_thickness_max_nm;
 #endif
 
+#ifdef HAS_ANISOTROPY
+// How far the highlight is drawn out.
+uniform float u_anisotropy_strength;
+// Counter-clockwise turn of the direction from the tangent.
+uniform float u_anisotropy_rotation_rad;
+#endif
+
+#ifdef HAS_TRANSMISSION
+// Share that is transmitted.
+uniform float u_transmission_factor;
+#endif
+
+#ifdef HAS_VOLUME
+// Depth under the surface, in the mesh's own space.
+uniform float u_volume_thickness_factor_m;
+// Refractive index of the inside.
+uniform float u_volume_ior;
+// Absorption: light keeps exp(−absorption · path).
+uniform vec3 u_volume_absorption_per_m;
+#endif
+
+#ifdef HAS_DISPERSION
+// 20 divided by the Abbe number; 0 is none.
+uniform float u_dispersion;
+#endif
+
+#ifdef HAS_SHEEN
+// Colour of the sheen; black is none.
+uniform vec3 u_sheen_color_factor;
+// Perceptual roughness of the sheen.
+uniform float u_sheen_roughness_factor;
+#endif
+
+#ifdef HAS_CLEARCOAT
+// Strength of the coat.
+uniform float u_clearcoat_factor;
+// Perceptual roughness of the coat.
+uniform float u_clearcoat_roughness_factor;
+#endif
+
 #ifdef HAS_DIELECTRIC
 // Reflectance of the base at normal incidence under air, from its refractive index.
 uniform float u_dielectric_f0;
@@ -161,5 +201,111 @@ vec2 iridescence_thickness_uv(vec2 uv0, vec2 uv1) {
 }
 float sample_iridescence_thickness(vec2 uv0, vec2 uv1) {
     return texture(u_iridescence_thickness_texture, iridescence_thickness_uv(uv0, uv1)).g;
+}
+#endif
+
+#ifdef HAS_ANISOTROPY_TEXTURE
+// Direction in tangent space (R, G), which the rotation turns further; multiplies the strength (B). Reads RGB, stored linear.
+uniform sampler2D u_anisotropy_texture;
+uniform mat3 u_anisotropy_uv_transform;
+uniform int u_anisotropy_uv_set;
+vec2 anisotropy_uv(vec2 uv0, vec2 uv1) {
+    return (u_anisotropy_uv_transform * vec3(u_anisotropy_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec3 sample_anisotropy(vec2 uv0, vec2 uv1) {
+    return texture(u_anisotropy_texture, anisotropy_uv(uv0, uv1)).rgb;
+}
+#endif
+
+#ifdef HAS_TRANSMISSION_TEXTURE
+// Multiplies the factor. Reads R, stored linear.
+uniform sampler2D u_transmission_texture;
+uniform mat3 u_transmission_uv_transform;
+uniform int u_transmission_uv_set;
+vec2 transmission_uv(vec2 uv0, vec2 uv1) {
+    return (u_transmission_uv_transform * vec3(u_transmission_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+float sample_transmission(vec2 uv0, vec2 uv1) {
+    return texture(u_transmission_texture, transmission_uv(uv0, uv1)).r;
+}
+#endif
+
+#ifdef HAS_VOLUME_THICKNESS_TEXTURE
+// Multiplies the depth. Reads G, stored linear.
+uniform sampler2D u_volume_thickness_texture;
+uniform mat3 u_volume_thickness_uv_transform;
+uniform int u_volume_thickness_uv_set;
+vec2 volume_thickness_uv(vec2 uv0, vec2 uv1) {
+    return (u_volume_thickness_uv_transform * vec3(u_volume_thickness_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+float sample_volume_thickness(vec2 uv0, vec2 uv1) {
+    return texture(u_volume_thickness_texture, volume_thickness_uv(uv0, uv1)).g;
+}
+#endif
+
+#ifdef HAS_SHEEN_COLOR_TEXTURE
+// Multiplies the colour. Reads RGB, stored as sRGB, sampled as linear.
+uniform sampler2D u_sheen_color_texture;
+uniform mat3 u_sheen_color_uv_transform;
+uniform int u_sheen_color_uv_set;
+vec2 sheen_color_uv(vec2 uv0, vec2 uv1) {
+    return (u_sheen_color_uv_transform * vec3(u_sheen_color_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec3 sample_sheen_color(vec2 uv0, vec2 uv1) {
+    return texture(u_sheen_color_texture, sheen_color_uv(uv0, uv1)).rgb;
+}
+#endif
+
+#ifdef HAS_SHEEN_ROUGHNESS_TEXTURE
+// Multiplies the roughness. Reads A, stored linear.
+uniform sampler2D u_sheen_roughness_texture;
+uniform mat3 u_sheen_roughness_uv_transform;
+uniform int u_sheen_roughness_uv_set;
+vec2 sheen_roughness_uv(vec2 uv0, vec2 uv1) {
+    return (u_sheen_roughness_uv_transform * vec3(u_sheen_roughness_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+float sample_sheen_roughness(vec2 uv0, vec2 uv1) {
+    return texture(u_sheen_roughness_texture, sheen_roughness_uv(uv0, uv1)).a;
+}
+#endif
+
+#ifdef HAS_CLEARCOAT_TEXTURE
+// Multiplies the factor. Reads R, stored linear.
+uniform sampler2D u_clearcoat_texture;
+uniform mat3 u_clearcoat_uv_transform;
+uniform int u_clearcoat_uv_set;
+vec2 clearcoat_uv(vec2 uv0, vec2 uv1) {
+    return (u_clearcoat_uv_transform * vec3(u_clearcoat_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+float sample_clearcoat(vec2 uv0, vec2 uv1) {
+    return texture(u_clearcoat_texture, clearcoat_uv(uv0, uv1)).r;
+}
+#endif
+
+#ifdef HAS_CLEARCOAT_ROUGHNESS_TEXTURE
+// Multiplies the roughness. Reads G, stored linear.
+uniform sampler2D u_clearcoat_roughness_texture;
+uniform mat3 u_clearcoat_roughness_uv_transform;
+uniform int u_clearcoat_roughness_uv_set;
+vec2 clearcoat_roughness_uv(vec2 uv0, vec2 uv1) {
+    return (u_clearcoat_roughness_uv_transform * vec3(u_clearcoat_roughness_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+float sample_clearcoat_roughness(vec2 uv0, vec2 uv1) {
+    return texture(u_clearcoat_roughness_texture, clearcoat_roughness_uv(uv0, uv1)).g;
+}
+#endif
+
+#ifdef HAS_CLEARCOAT_NORMAL_TEXTURE
+// Multiplies x and y of each sampled normal.
+uniform float u_clearcoat_normal_scale;
+// Normals of the coat. Reads RGB, stored linear.
+uniform sampler2D u_clearcoat_normal_texture;
+uniform mat3 u_clearcoat_normal_uv_transform;
+uniform int u_clearcoat_normal_uv_set;
+vec2 clearcoat_normal_uv(vec2 uv0, vec2 uv1) {
+    return (u_clearcoat_normal_uv_transform * vec3(u_clearcoat_normal_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+vec3 sample_clearcoat_normal(vec2 uv0, vec2 uv1) {
+    return texture(u_clearcoat_normal_texture, clearcoat_normal_uv(uv0, uv1)).rgb;
 }
 #endif

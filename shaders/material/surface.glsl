@@ -19,6 +19,24 @@ struct Surface {
     float film_ior;
     float iridescence_thickness_nm;
 #endif
+#ifdef HAS_ANISOTROPY
+    float anisotropy_strength;
+    vec2 anisotropy_direction;  // along tangent and bitangent, unit
+#endif
+#ifdef HAS_TRANSMISSION
+    float transmission;
+#ifdef HAS_VOLUME
+    float volume_thickness_m;   // in the mesh's own space
+#endif
+#endif
+#ifdef HAS_SHEEN
+    vec3 sheen_color;
+    float sheen_roughness;      // perceptual
+#endif
+#ifdef HAS_CLEARCOAT
+    float clearcoat;
+    float clearcoat_roughness;  // perceptual
+#endif
 };
 
 Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
@@ -84,6 +102,55 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
 #ifdef HAS_IRIDESCENCE_THICKNESS_TEXTURE
     float thickness = sample_iridescence_thickness(uv0, uv1);
     s.iridescence_thickness_nm = mix(u_iridescence_thickness_min_nm, u_iridescence_thickness_max_nm, thickness);
+#endif
+#endif
+
+#ifdef HAS_ANISOTROPY
+    s.anisotropy_strength = u_anisotropy_strength;
+    s.anisotropy_direction = vec2(1.0, 0.0);
+#ifdef HAS_ANISOTROPY_TEXTURE
+    vec3 anisotropy = sample_anisotropy(uv0, uv1);
+    s.anisotropy_strength *= anisotropy.z;
+    vec2 painted = anisotropy.xy * 2.0 - 1.0;
+    // Where opposite directions are filtered into none, the tangent stands in.
+    s.anisotropy_direction = dot(painted, painted) > 0.0 ? normalize(painted) : s.anisotropy_direction;
+#endif
+    float cos_turn = cos(u_anisotropy_rotation_rad), sin_turn = sin(u_anisotropy_rotation_rad);
+    s.anisotropy_direction = mat2(cos_turn, sin_turn, -sin_turn, cos_turn) * s.anisotropy_direction;
+#endif
+
+#ifdef HAS_TRANSMISSION
+    s.transmission = u_transmission_factor;
+#ifdef HAS_TRANSMISSION_TEXTURE
+    s.transmission *= sample_transmission(uv0, uv1);
+#endif
+#ifdef HAS_VOLUME
+    s.volume_thickness_m = u_volume_thickness_factor_m;
+#ifdef HAS_VOLUME_THICKNESS_TEXTURE
+    s.volume_thickness_m *= sample_volume_thickness(uv0, uv1);
+#endif
+#endif
+#endif
+
+#ifdef HAS_SHEEN
+    s.sheen_color = u_sheen_color_factor;
+#ifdef HAS_SHEEN_COLOR_TEXTURE
+    s.sheen_color *= sample_sheen_color(uv0, uv1);
+#endif
+    s.sheen_roughness = u_sheen_roughness_factor;
+#ifdef HAS_SHEEN_ROUGHNESS_TEXTURE
+    s.sheen_roughness *= sample_sheen_roughness(uv0, uv1);
+#endif
+#endif
+
+#ifdef HAS_CLEARCOAT
+    s.clearcoat = u_clearcoat_factor;
+#ifdef HAS_CLEARCOAT_TEXTURE
+    s.clearcoat *= sample_clearcoat(uv0, uv1);
+#endif
+    s.clearcoat_roughness = u_clearcoat_roughness_factor;
+#ifdef HAS_CLEARCOAT_ROUGHNESS_TEXTURE
+    s.clearcoat_roughness *= sample_clearcoat_roughness(uv0, uv1);
 #endif
 #endif
     return s;

@@ -14,6 +14,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from gltf_iri.material.anisotropy import Anisotropy
+from gltf_iri.material.clearcoat import Clearcoat
+from gltf_iri.material.dispersion import Dispersion
 from gltf_iri.material.emissive_strength import EmissiveStrength
 from gltf_iri.material.interface import (
     SAMPLERS,
@@ -25,8 +28,11 @@ from gltf_iri.material.interface import (
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
+from gltf_iri.material.sheen import Sheen
 from gltf_iri.material.specular import Specular
 from gltf_iri.material.texture import NormalTextureInfo, OcclusionTextureInfo, TextureInfo, TextureTransform
+from gltf_iri.material.transmission import Transmission
+from gltf_iri.material.volume import Volume
 from gltf_iri.planning.effects import Effect
 from gltf_iri.resources import shader_root
 
@@ -45,6 +51,12 @@ FULL = Material(
     ior=Ior(2.0),
     specular=Specular(0.5, TextureInfo(5), (1.0, 2.0, 3.0), TextureInfo(6)),
     iridescence=Iridescence(1.0, TextureInfo(7), 1.8, 200.0, 300.0, TextureInfo(8, tex_coord=1)),
+    anisotropy=Anisotropy(0.5, 1.0, TextureInfo(9)),
+    transmission=Transmission(1.0, TextureInfo(10)),
+    volume=Volume(2.0, TextureInfo(11), 3.0, (0.1, 0.5, 1.0)),
+    dispersion=Dispersion(0.3),
+    sheen=Sheen((0.1, 0.2, 0.3), TextureInfo(12), 0.4, TextureInfo(13)),
+    clearcoat=Clearcoat(0.6, TextureInfo(14), 0.7, TextureInfo(15), NormalTextureInfo(16, scale=0.25)),
 )
 
 
@@ -101,6 +113,14 @@ def test_each_sampler_gets_its_own_texture_in_its_own_colour_space():
         "u_specular_color_texture": (6, "srgb"),
         "u_iridescence_texture": (7, "linear"),
         "u_iridescence_thickness_texture": (8, "linear"),
+        "u_anisotropy_texture": (9, "linear"),
+        "u_transmission_texture": (10, "linear"),
+        "u_volume_thickness_texture": (11, "linear"),
+        "u_sheen_color_texture": (12, "srgb"),
+        "u_sheen_roughness_texture": (13, "linear"),
+        "u_clearcoat_texture": (14, "linear"),
+        "u_clearcoat_roughness_texture": (15, "linear"),
+        "u_clearcoat_normal_texture": (16, "linear"),
     }
 
 

@@ -198,9 +198,13 @@ def test_an_index_may_be_written_as_a_whole_float():
 def test_unknown_extensions_are_collected_from_everywhere_in_the_material():
     info = {"index": 0, "extensions": {"EXT_texture_magic": {}}}
     (first, second) = parse(
-        {"extensions": {"KHR_materials_sheen": {}, "KHR_materials_ior": {}}, "emissiveTexture": info}, {}
+        {
+            "extensions": {"KHR_materials_diffuse_transmission": {}, "KHR_materials_ior": {}},
+            "emissiveTexture": info,
+        },
+        {},
     )
-    assert set(first.unread_extensions) == {"KHR_materials_sheen", "EXT_texture_magic"}
+    assert set(first.unread_extensions) == {"KHR_materials_diffuse_transmission", "EXT_texture_magic"}
     assert second.unread_extensions == ()
 
 

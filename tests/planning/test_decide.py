@@ -9,11 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gltf_iri.errors import UsageError
+from gltf_iri.material.anisotropy import Anisotropy
 from gltf_iri.material.clearcoat import Clearcoat
+from gltf_iri.material.dispersion import Dispersion
 from gltf_iri.material.emissive_strength import EmissiveStrength
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
+from gltf_iri.material.sheen import Sheen
 from gltf_iri.material.specular import Specular
 from gltf_iri.material.texture import NormalTextureInfo, OcclusionTextureInfo, TextureInfo
 from gltf_iri.material.transmission import Transmission
@@ -55,7 +58,7 @@ MATERIALS = st.builds(
     transmission=st.none() | st.builds(Transmission, FACTORS, TEXTURES),
     volume=st.none() | st.builds(Volume, FACTORS),
     clearcoat=st.none() | st.builds(Clearcoat, FACTORS),
-    unread_extensions=st.sampled_from([(), ("KHR_materials_sheen",)]),
+    unread_extensions=st.sampled_from([(), ("KHR_materials_diffuse_transmission",)]),
 )
 METHOD_NAMES = st.none() | st.sampled_from([m.name for m in METHODS.values() if m.domain == "film"])
 
@@ -284,17 +287,25 @@ def test_a_metallic_texture_keeps_both_lobes():
     assert plan.calls_for(Effect.DIELECTRIC)
 
 
-def test_transmission_volume_and_clearcoat_are_admitted_as_not_drawn():
+def test_layers_that_change_the_picture_are_called_for():
     material = Material(
         pbr=DIELECTRIC,
         transmission=Transmission(1.0),
         volume=Volume(1.0),
+        dispersion=Dispersion(1.0),
         clearcoat=Clearcoat(1.0),
-        unread_extensions=("KHR_materials_sheen",),
+        sheen=Sheen((1.0, 1.0, 1.0)),
+        anisotropy=Anisotropy(1.0),
     )
     plan = plan_material(material, 0)
-    assert set(plan.not_drawn) == {"transmission", "volume", "clearcoat", "KHR_materials_sheen"}
-    assert plan.not_drawn["transmission"] == "recognised, drawn as opaque"
+    called_for = {"transmission", "volume", "dispersion", "clearcoat", "sheen", "anisotropy"}
+    assert called_for <= {effect.value for effect in plan.effects}
+    assert plan.not_drawn == {}
+
+
+def test_an_extension_without_rows_is_admitted_as_not_drawn():
+    plan = plan_material(Material(unread_extensions=("KHR_materials_diffuse_transmission",)), 0)
+    assert set(plan.not_drawn) == {"KHR_materials_diffuse_transmission"}
 
 
 def test_a_texture_on_a_third_uv_set_is_admitted_as_not_drawn():

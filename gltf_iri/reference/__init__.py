@@ -1,0 +1,1 @@
+"""Casts rays and shades in float64: the same scene, without OpenGL and without the shaders' code."""
