@@ -1,33 +1,21 @@
-"""Cameras: from the file, or framed around what there is to see (glTF 2.0 §3.10)."""
+"""Cameras of a file, and the projection of every camera (glTF 2.0 §3.10)."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.asset.limits import MAX_NUMBER
 from gltf_iri.errors import AssetError, UsageError
-from gltf_iri.scene.framing import fit_eye
-from gltf_iri.scene.model import Camera, Scene
+from gltf_iri.scene.model import Camera
 
-__all__ = ["frame_scene", "projection_matrix", "read_camera"]
+__all__ = ["projection_matrix", "read_camera"]
 
 Float64 = NDArray[np.float64]
-
-# A view that shows three sides of a box without hiding its front, through a mildly long lens.
-AZIMUTH_RAD: Final = math.radians(25.0)
-ELEVATION_RAD: Final = math.radians(15.0)
-YFOV_RAD: Final = math.radians(35.0)
-
-# Share of the picture left free around the subject.
-MARGIN: Final = 0.06
-
-# Near and far planes stand off by this much of the subject's depth, so that rounding clips nothing.
-DEPTH_SLACK: Final = 0.05
 
 
 def read_camera(description: Mapping[str, Any], world: Float64, name: str, pointer: str) -> Camera:
@@ -95,50 +83,6 @@ def projection_matrix(camera: Camera, aspect: float) -> Float64:
     matrix[2, 3] = (far + near) / (near - far)
     matrix[3, 3] = 1.0
     return matrix
-
-
-def frame_scene(
-    scene: Scene,
-    *,
-    aspect: float,
-    azimuth_rad: float = AZIMUTH_RAD,
-    elevation_rad: float = ELEVATION_RAD,
-    yfov_rad: float = YFOV_RAD,
-) -> Camera:
-    """Return the perspective camera that fits every vertex into the picture as tightly as `MARGIN` lets.
-
-    The azimuth turns from +Z towards +X, the elevation up from the horizon; AssetError for an empty scene.
-    """
-    points = scene.vertices()
-    axes = _axes(azimuth_rad, elevation_rad)
-    eye = fit_eye(points @ axes.T, *_slopes(yfov_rad, aspect))
-    return _camera_at(points, axes, axes.T @ eye, yfov_rad)
-
-
-def _slopes(yfov_rad: float, aspect: float) -> tuple[float, float]:
-    vertical = math.tan(0.5 * yfov_rad) * (1.0 - MARGIN)
-    return vertical * aspect, vertical
-
-
-def _axes(azimuth_rad: float, elevation_rad: float) -> Float64:
-    """Return the eye's right, up and backward as rows, (3, 3)."""
-    sin_a, cos_a = math.sin(azimuth_rad), math.cos(azimuth_rad)
-    sin_e, cos_e = math.sin(elevation_rad), math.cos(elevation_rad)
-    return np.array(
-        [[cos_a, 0.0, -sin_a], [-sin_a * sin_e, cos_e, -cos_a * sin_e], [sin_a * cos_e, sin_e, cos_a * cos_e]]
-    )
-
-
-def _camera_at(points: Float64, axes: Float64, eye: Float64, yfov_rad: float) -> Camera:
-    depth = (eye - points) @ axes[2]
-    nearest, farthest = float(depth.min()), float(depth.max())
-    slack = DEPTH_SLACK * max(farthest - nearest, 1e-3 * farthest)
-    view = np.eye(4)
-    view[:3, :3] = axes
-    view[:3, 3] = -axes @ eye
-    # The near plane stays off 0 by 1/1000 of the far one: a depth buffer resolves no more.
-    near = max(nearest - slack, 1e-3 * farthest)
-    return Camera("automatic", "perspective", view, near, farthest + slack, yfov_rad=yfov_rad)
 
 
 def _view_of(world: Float64, pointer: str) -> Float64:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 
 from gltf_iri.errors import UsageError
-from gltf_iri.scene.camera import frame_scene
 from gltf_iri.scene.environment import read_environment, studio, white
+from gltf_iri.scene.framing import frame_scene
 from gltf_iri.scene.model import Camera, Environment, Scene
 
 __all__ = ["choose_camera", "choose_environment"]

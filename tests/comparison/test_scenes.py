@@ -16,8 +16,8 @@ from gltf_iri.comparison.run import compare
 from gltf_iri.planning.decide import plan_materials
 from gltf_iri.resources import spec_root
 from gltf_iri.samples.collection import write_samples
-from gltf_iri.scene.camera import frame_scene
 from gltf_iri.scene.environment import studio
+from gltf_iri.scene.framing import frame_scene
 from gltf_iri.scene.load import load
 from gltf_iri.scene.model import Light
 from gltf_iri.tolerances import GLSL_PIXEL_RELATIVE

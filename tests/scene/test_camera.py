@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gltf_iri.errors import AssetError
-from gltf_iri.scene.camera import MARGIN, frame_scene, projection_matrix, read_camera
+from gltf_iri.scene.camera import projection_matrix, read_camera
 from gltf_iri.scene.model import Primitive, Scene
 
 PERSPECTIVE = {"type": "perspective", "perspective": {"yfov": math.radians(60), "znear": 0.5, "zfar": 20.0}}
@@ -108,48 +108,3 @@ def test_cameras_of_the_file_are_found_with_their_names(triangle):
     assert (first.name, first.kind) == ("lens", "perspective")
     assert (second.name, second.kind) == ("tripod", "orthographic")
     np.testing.assert_array_equal(second.position, (0, 0, 4))
-
-
-@pytest.mark.parametrize("aspect", [0.4, 1.0, 2.5])
-@pytest.mark.parametrize("azimuth_rad", [0.0, 0.4, 2.0, -3.0])
-def test_automatic_framing_holds_every_vertex_and_fits_tightly(aspect, azimuth_rad):
-    points = np.random.default_rng(3).normal(size=(300, 3)) * (4, 1, 0.3) + (100, -20, 3)
-    camera = frame_scene(_scene(points), aspect=aspect, azimuth_rad=azimuth_rad)
-    seen = _seen(camera, points, aspect)
-    assert np.all(np.abs(seen) <= 1)
-    fullest = max(np.ptp(seen[:, 0]), np.ptp(seen[:, 1]))
-    assert fullest == pytest.approx(2 * (1 - MARGIN), rel=1e-3)
-    for axis in range(2):
-        if np.ptp(seen[:, axis]) > fullest - 1e-3:
-            assert seen[:, axis].max() == pytest.approx(-seen[:, axis].min(), abs=1e-3)
-
-
-def test_automatic_framing_looks_from_the_front_a_little_from_the_right_and_above():
-    camera = frame_scene(_scene([[-1, -1, -1], [1, -1, -1], [0, 1, 1]]), aspect=1)
-    x, y, z = camera.position
-    assert z > x > 0
-    assert z > y > 0
-    seen = _seen(camera, np.array([[-1.0, -1, -1], [1, -1, -1], [0, 1, 1]]), 1)
-    assert seen[1, 0] > seen[0, 0]
-    assert seen[2, 1] > seen[1, 1]
-
-
-@pytest.mark.parametrize("size", [0.0, 1e-6, 1e6])
-def test_automatic_framing_is_finite_for_specks_and_giants(size):
-    points = size * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 1]])
-    camera = frame_scene(_scene(points), aspect=1.5)
-    assert np.all(np.isfinite(camera.view))
-    assert 0 < camera.znear_m < camera.zfar_m < math.inf
-    assert np.all(np.abs(_seen(camera, points, 1.5)) <= 1)
-
-
-def test_framing_counts_drawn_vertices_only():
-    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [1e9, 0, 0]], dtype=np.float32)
-    low, high = _scene(points).bounds()
-    np.testing.assert_array_equal(high, (1, 1, 0))
-    np.testing.assert_array_equal(low, (0, 0, 0))
-
-
-def test_an_empty_scene_cannot_be_framed():
-    with pytest.raises(AssetError, match="no triangles"):
-        frame_scene(Scene("", (), (), ()), aspect=1)

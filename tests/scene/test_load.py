@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from gltf_iri.errors import AssetError, UsageError
-from gltf_iri.scene.camera import frame_scene
 from gltf_iri.scene.extensions import supported_extensions
+from gltf_iri.scene.framing import frame_scene
 from gltf_iri.scene.load import load
 
 MATERIAL_EXTENSIONS = {
