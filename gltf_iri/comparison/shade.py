@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.comparison.lights import arriving
 from gltf_iri.comparison.pixels import Pixels
 from gltf_iri.evaluation.film import Evaluation, Film, base_from_f0
 from gltf_iri.optics.fresnel import f_schlick
@@ -25,6 +24,7 @@ from gltf_iri.optics.layering import (
 from gltf_iri.optics.microfacet import d_ggx, v_smith_ggx_correlated
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.scene.illuminance import arriving
 from gltf_iri.scene.model import Light
 
 __all__ = ["FilmMethod", "Shading", "shade"]

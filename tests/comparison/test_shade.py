@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gltf_iri.comparison.lights import arriving
 from gltf_iri.comparison.pixels import gather
 from gltf_iri.comparison.shade import shade
 from gltf_iri.evaluation.film import Evaluation
 from gltf_iri.planning.effects import Effect
+from gltf_iri.scene.illuminance import arriving
 from gltf_iri.scene.model import Camera, Light
 
 BASE = np.array([0.8, 0.4, 0.2], np.float32).astype(np.float64)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gltf_iri.comparison.lights import arriving
 from gltf_iri.rendering.punctual_lights import pack_lights
+from gltf_iri.scene.illuminance import arriving
 from gltf_iri.scene.model import Light
 
 DOWN = np.array([0.0, 0.0, -1.0])
