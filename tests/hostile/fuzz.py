@@ -1,0 +1,152 @@
+"""Breaks real assets at random and walks the road through them, for as long as it is told to.
+
+`python tests/hostile/fuzz.py MINUTES FOLDER… [--seed N] [--keep FOLDER]` reads every .gltf and .glb below the
+folders, with the files beside it. Every broken file must end in one sentence that says where, or be accepted;
+some of the accepted ones are drawn. A traceback, more than three seconds, or a process that keeps growing is
+a finding: its file is kept, and the exit code is 1. Linux only: sizes come from /proc.
+"""
+
+from __future__ import annotations
+
+import argparse
+import collections
+import random
+import shutil
+import signal
+import sys
+import tempfile
+import time
+import traceback
+import warnings
+from pathlib import Path
+from typing import Final
+
+from mutate import break_bytes, break_gltf
+from road import PAGE, walk
+
+from gltf_iri.errors import AssetError
+from gltf_iri.planning.decide import plan_materials
+from gltf_iri.rendering.context import create_context
+from gltf_iri.rendering.render import Renderer
+from gltf_iri.scene.choose import choose_camera
+from gltf_iri.scene.environment import white
+from gltf_iri.scene.load import load
+
+LARGEST_ASSET = 1 << 20  # bytes with all its files: larger ones would only slow the search down
+LONGEST_SENTENCE = 300
+MOST_SECONDS = 3.0
+HANG_SECONDS = 20
+SHARE_DRAWN = 0.08
+# Caches and the driver's compiler settle; what the process holds later than this may not grow for good.
+SETTLED = 0.25
+MOST_GROWTH = 150 * 2**20  # bytes
+BESIDE: Final = (".bin", ".png", ".jpg", ".jpeg", ".webp")
+
+
+class HangError(Exception):
+    """A file took so long that the alarm rang."""
+
+
+def ring(*_: object) -> None:
+    raise HangError
+
+
+def resident() -> int:
+    """Return the bytes of memory that this process holds now."""
+    return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * PAGE
+
+
+def assets(folders: list[Path]) -> list[Path]:
+    """Return the files to break: whole small assets only."""
+    found = [p for folder in folders for p in sorted(folder.rglob("*.gl*")) if p.suffix in (".gltf", ".glb")]
+    return [path for path in found if sum(f.stat().st_size for f in belonging(path)) <= LARGEST_ASSET]
+
+
+def belonging(path: Path) -> list[Path]:
+    """Return `path` and, for a .gltf, every file of its folder."""
+    if path.suffix == ".glb":
+        return [path]
+    return [path, *(f for f in path.parent.rglob("*") if f.is_file() and f != path)]
+
+
+def breakage(path: Path, place: Path, chance: random.Random) -> Path:
+    """Copy the asset to `place` with one of its files broken; return the copy."""
+    victims = [path] * 4 + [f for f in belonging(path) if f.suffix in BESIDE]
+    victim = chance.choice(victims)
+    for source in belonging(path):
+        copy = place / source.relative_to(path.parent)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        data = source.read_bytes()
+        if source == victim == path:
+            data = break_gltf(data, chance, is_glb=path.suffix == ".glb")
+        elif source == victim:
+            data = break_bytes(data, chance)
+        copy.write_bytes(data)
+    return place / path.name
+
+
+def draw(renderer: Renderer, path: Path) -> None:
+    """Draw the file small, under a white environment."""
+    model = load(path)
+    scene = model.scene()
+    camera = choose_camera(scene, None, (8, 8))
+    renderer.render(model, scene, plan_materials(model.materials), camera, white(), size=(8, 8), samples=0)
+
+
+def trial(path: Path, renderer: Renderer, *, is_drawn: bool) -> tuple[str, str]:
+    """Return what became of the file in a word, and for a finding what is wrong ("" for none)."""
+    started = time.perf_counter()
+    signal.alarm(HANG_SECONDS)
+    try:
+        walk(path)
+        if is_drawn:
+            draw(renderer, path)
+        end, finding = "accepted", ""
+    except AssetError as error:
+        is_placed = error.pointer is not None or error.offset is not None
+        is_sentence = len(error.what) <= LONGEST_SENTENCE and str(error).isprintable()
+        end, finding = "refused", "" if is_placed and is_sentence else f"no sentence or no place: {error}"
+    except BaseException:  # whatever comes out is what is looked for
+        end, finding = "broke down", traceback.format_exc(limit=-4)
+    finally:
+        signal.alarm(0)
+    seconds = time.perf_counter() - started
+    if not finding and seconds > MOST_SECONDS:
+        finding = f"took {seconds:.1f} s"
+    return end, finding
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
+    parser.add_argument("minutes", type=float)
+    parser.add_argument("folders", type=Path, nargs="+")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--keep", type=Path, default=Path("fuzz-findings"))
+    asked = parser.parse_args()
+    warnings.simplefilter("error")
+    signal.signal(signal.SIGALRM, ring)
+    chance, renderer = random.Random(asked.seed), Renderer(create_context())
+    files = assets(asked.folders)
+    counts: collections.Counter[str] = collections.Counter()
+    started, settled, held = time.monotonic(), 0, 0
+    while (passed := (time.monotonic() - started) / 60.0) < asked.minutes:
+        with tempfile.TemporaryDirectory() as folder:
+            path = breakage(chance.choice(files), Path(folder), chance)
+            end, finding = trial(path, renderer, is_drawn=chance.random() < SHARE_DRAWN)
+            counts[end] += 1
+            if finding:
+                kept = asked.keep / str(counts.total())
+                shutil.copytree(folder, kept)
+                counts["findings"] += 1
+                print(f"{kept / path.name}: {finding}", flush=True)  # noqa: T201
+        held = resident()
+        if passed < SETTLED * asked.minutes:
+            settled = max(settled, held)
+    grown = held - settled
+    counts["findings"] += grown > MOST_GROWTH
+    print(f"{len(files)} assets, {dict(counts)}, grown by {grown / 2**20:.0f} MiB")  # noqa: T201
+    return 1 if counts["findings"] else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
