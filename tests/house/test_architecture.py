@@ -27,7 +27,7 @@ ENTRANCES = {"__init__", "__main__", "generate"}
 
 SLOW_TO_LOAD = {
     *("scipy", "colour", "matplotlib", "moderngl", "glcontext", "pygltflib", "trimesh"),
-    *("OpenEXR", "jinja2", "PIL", "rich"),
+    *("OpenEXR", "jinja2", "PIL", "rich", "embreex"),
 }
 LONGEST_FILE = 300
 
