@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.comparison.methods import BRANCH, TRUTH, film_method, white_of
 from gltf_iri.comparison.metric import Agreement, ColourError, agreement, colour_error, relative_deviation
-from gltf_iri.comparison.pixels import Pixels, gather
+from gltf_iri.comparison.pixels import image_light_of_pixels, surface_of_pixels
 from gltf_iri.comparison.result import Comparison, MaterialResult, PictureResult, Pictures, Split
 from gltf_iri.comparison.shade import FilmMethod, shade
 from gltf_iri.errors import AssetError, UsageError
@@ -73,8 +73,7 @@ def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Compariso
     compared = np.zeros(canvas.shape[:2], dtype=np.bool_)
     results = []
     for plan, mask in _masks(inputs, shot.plans):
-        pixels = gather(inputs, mask, shot.camera)
-        results.append(_judge_material(shot, plan, pixels, inputs, mask, pictures, compared, coarse_inputs))
+        results.append(_judge_material(shot, plan, inputs, mask, pictures, compared, coarse_inputs))
     _draw_differences(pictures, compared, shot.exposure)
     if coarse_inputs is not None:
         _draw_texture_difference(pictures, inputs, coarse_inputs, shot.exposure)
@@ -98,7 +97,6 @@ def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Compariso
 def _judge_material(
     shot: Shot,
     plan: MaterialPlan,
-    pixels: Pixels,
     inputs: ShadingInputs,
     mask: Mask,
     pictures: Pictures,
@@ -107,8 +105,9 @@ def _judge_material(
 ) -> MaterialResult:
     """Shade one material's pixels with its method and with truth; writes into `pictures` and `compared`."""
     film_ior, method, truth = _film_of(shot, plan)
+    surface, image = surface_of_pixels(inputs, mask, shot.camera), image_light_of_pixels(inputs, mask)
     try:
-        mine = shade(pixels, plan, film_ior, shot.lights, method)
+        mine = shade(surface, image, plan, film_ior, shot.lights, method)
     except UsageError as error:  # legal in glTF, but no film: 10^30 nm
         what = str(error).rstrip(".")
         raise AssetError(
@@ -132,7 +131,7 @@ def _judge_material(
     if not mine.has_film.any():
         pictures.truth[mask] = mine.rgb
         return result
-    exact = shade(pixels, plan, film_ior, shot.lights, truth)
+    exact = shade(surface, image, plan, film_ior, shot.lights, truth)
     pictures.truth[mask] = exact.rgb
     filmed, seen = mine.has_film & ~left_out, ~left_out
     return replace(

@@ -1,4 +1,4 @@
-"""The shading inputs of one material's pixels, in float64, as flat arrays."""
+"""What one material's pixels were shaded with, in float64: the surface, and image light that reaches it."""
 
 from __future__ import annotations
 
@@ -8,65 +8,96 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN
+from gltf_iri.reference.surface import Surface
 from gltf_iri.rendering.frame import ShadingInputs
 from gltf_iri.scene.model import Camera
 
-__all__ = ["Pixels", "gather"]
+__all__ = ["ImageLight", "image_light_of_pixels", "surface_of_pixels"]
 
 Float64 = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
-class Pixels:
-    """What n pixels were shaded with; colours and vectors (n, 3), everything else (n,)."""
+class ImageLight:
+    """Image light as it reached n pixels, occlusion included; colours (n, 3), everything else (n,)."""
 
-    position: Float64  # world, metres
-    normal: Float64  # unit, turned towards the viewer
-    view: Float64  # unit, towards the viewer
-    n_dot_v: Float64
-    alpha: Float64
-    metallic: Float64
-    base_color: Float64
-    dielectric_f0: Float64
-    specular_weight: Float64
-    iridescence_factor: Float64
-    thickness_nm: Float64
-    reflected_radiance: Float64
-    irradiance: Float64
-    dfg_a: Float64
+    reflected_radiance: Float64  # prefiltered, along the mirror direction
+    irradiance: Float64  # divided by π
+    transmitted_radiance: Float64  # along the refracted direction, what the inside absorbs taken off
+    clearcoat_radiance: Float64  # prefiltered, along the coat's mirror direction
+    sheen_radiance: Float64  # prefiltered with the fibres' lobe
+    dfg_a: Float64  # a rough mirror reflects F0·A + B
     dfg_b: Float64
-    emission: Float64
+    clearcoat_a: Float64  # the same at the coat's roughness
+    clearcoat_b: Float64
+    sheen_albedo: Float64  # what white fibres reflect
 
 
-def gather(inputs: ShadingInputs, mask: NDArray[np.bool_], camera: Camera) -> Pixels:
-    """Return the pixels of `inputs` where `mask` (height, width) is set, with the camera's view of them."""
+def surface_of_pixels(inputs: ShadingInputs, mask: Mask, camera: Camera) -> Surface:
+    """Return the pixels of `inputs` where `mask` (height, width) is set, with the camera's view of them.
 
-    def take(name: str) -> Float64:
-        return np.asarray(getattr(inputs, name)[mask], dtype=np.float64)
-
+    The thickness of a volume is 0 here: what it absorbs has been taken off `ImageLight.transmitted_radiance`.
+    """
+    take = _Taker(inputs, mask)
     position, normal = take("position"), take("normal")
     view = _towards_viewer(camera, position)
-    n_dot_v = np.sum(normal * view, axis=-1)
-    return Pixels(
+    roughness = take("perceptual_roughness")
+    return Surface(
         position=position,
         normal=normal,
         view=view,
         # The lower clamp keeps the masking finite, the upper takes back the rounding of a unit vector.
-        n_dot_v=np.clip(n_dot_v, N_DOT_V_MIN, 1.0),
-        alpha=np.maximum(take("perceptual_roughness") ** 2, ALPHA_MIN),
-        metallic=take("metallic"),
+        n_dot_v=np.clip(np.sum(normal * view, axis=-1), N_DOT_V_MIN, 1.0),
         # Interpolated vertex colours may overshoot by a float32 rounding; no reflectance exceeds 1.
         base_color=np.clip(take("base_color"), 0.0, 1.0),
+        metallic=take("metallic"),
+        roughness=roughness,
+        alpha=np.maximum(roughness**2, ALPHA_MIN),
+        emission=take("emission"),
+        occlusion=np.ones_like(roughness),
         dielectric_f0=np.clip(take("dielectric_f0"), 0.0, 1.0),
         specular_weight=take("specular_weight"),
         iridescence_factor=take("iridescence_factor"),
-        thickness_nm=np.maximum(take("iridescence_thickness_nm"), 0.0),  # filtering may round below 0
+        # Filtering may round below 0.
+        iridescence_thickness_nm=np.maximum(take("iridescence_thickness_nm"), 0.0),
+        anisotropy_strength=take("anisotropy_strength"),
+        anisotropy_tangent=take("anisotropy_tangent"),
+        transmission=take("transmission"),
+        volume_thickness_m=np.zeros_like(roughness),
+        sheen_color=take("sheen_color"),
+        sheen_roughness=take("sheen_roughness"),
+        clearcoat=take("clearcoat"),
+        clearcoat_roughness=take("clearcoat_roughness"),
+        clearcoat_normal=take("clearcoat_normal"),
+    )
+
+
+def image_light_of_pixels(inputs: ShadingInputs, mask: Mask) -> ImageLight:
+    """Return the image light of the pixels of `inputs` where `mask` (height, width) is set."""
+    take = _Taker(inputs, mask)
+    albedos = take("layer_albedos")
+    return ImageLight(
         reflected_radiance=take("reflected_radiance"),
         irradiance=take("irradiance"),
+        transmitted_radiance=take("transmitted_radiance"),
+        clearcoat_radiance=take("clearcoat_radiance"),
+        sheen_radiance=take("sheen_radiance"),
         dfg_a=take("dfg_a"),
         dfg_b=take("dfg_b"),
-        emission=take("emission"),
+        clearcoat_a=albedos[:, 0],
+        clearcoat_b=albedos[:, 1],
+        sheen_albedo=albedos[:, 2],
     )
+
+
+@dataclass(frozen=True, slots=True)
+class _Taker:
+    inputs: ShadingInputs
+    mask: Mask
+
+    def __call__(self, name: str) -> Float64:
+        return np.asarray(getattr(self.inputs, name)[self.mask], dtype=np.float64)
 
 
 def _towards_viewer(camera: Camera, position: Float64) -> Float64:

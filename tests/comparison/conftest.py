@@ -39,6 +39,18 @@ def row_of_pixels() -> Callable[..., ShadingInputs]:
             "dfg_b": 0,
             "emission": (0, 0, 0),
             "iridescence_thickness_nm": 400,
+            "transmitted_radiance": (0, 0, 0),
+            "transmission": 0,
+            "clearcoat_normal": (0, 0, 1),
+            "clearcoat": 0,
+            "clearcoat_radiance": (0, 0, 0),
+            "clearcoat_roughness": 0,
+            "sheen_color": (0, 0, 0),
+            "sheen_roughness": 0,
+            "sheen_radiance": (0, 0, 0),
+            "anisotropy_tangent": (1, 0, 0),
+            "anisotropy_strength": 0,
+            "layer_albedos": (0, 0, 0),
         }
         quantities.update(values)
         rows = {

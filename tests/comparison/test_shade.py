@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gltf_iri.comparison.pixels import gather
+from gltf_iri.comparison.pixels import image_light_of_pixels, surface_of_pixels
 from gltf_iri.comparison.shade import shade
 from gltf_iri.evaluation.film import Evaluation
 from gltf_iri.planning.effects import Effect
@@ -34,20 +34,21 @@ NO_FILM = PaintedFilm([np.nan] * 3)
 
 
 def all_pixels(inputs, camera):
-    return gather(inputs, inputs.material >= 0, camera)
+    mask = inputs.material >= 0
+    return surface_of_pixels(inputs, mask, camera), image_light_of_pixels(inputs, mask)
 
 
 def test_metal_lit_and_seen_head_on(row_of_pixels, camera, plan, sun) -> None:
     """D = 1/(π α²), V = ¼, F = F0: E·F0/(4 π α²) with α = ¼ and E = 3."""
     pixels = all_pixels(row_of_pixels(metallic=1), camera)
-    shading = shade(pixels, plan(), 1.0, [sun()], NO_FILM)
+    shading = shade(*pixels, plan(), 1.0, [sun()], NO_FILM)
     np.testing.assert_allclose(shading.rgb[0], 3.0 * BASE * 16.0 / (4.0 * np.pi), rtol=1e-12)
 
 
 def test_dielectric_lit_and_seen_head_on(row_of_pixels, camera, plan, sun) -> None:
     """E·((1 − F0)·c/π + F0/(4 π α²))."""
     pixels = all_pixels(row_of_pixels(), camera)
-    shading = shade(pixels, plan(), 1.0, [sun()], NO_FILM)
+    shading = shade(*pixels, plan(), 1.0, [sun()], NO_FILM)
     expected = 3.0 * ((1.0 - F0) * BASE / np.pi + F0 * 16.0 / (4.0 * np.pi))
     np.testing.assert_allclose(shading.rgb[0], expected, rtol=1e-12)
 
@@ -57,7 +58,7 @@ def test_film_is_met_at_the_half_vectors_angle(row_of_pixels, camera, plan, sun)
     film = PaintedFilm([0.5, 0.1, 0.3])
     pixels = all_pixels(row_of_pixels(metallic=1, iridescence_factor=0.25), camera)
     light = sun((-np.sin(np.pi / 3), 0.0, -0.5))
-    shading = shade(pixels, plan(method="painted"), 1.4, [light], film)
+    shading = shade(*pixels, plan(method="painted"), 1.4, [light], film)
     cosines = [float(f.cos_theta_1[0]) for f in film.films]
     assert cosines[-1] == pytest.approx(np.sqrt(0.75), rel=1e-12)
     alpha2 = 1.0 / 16.0
@@ -74,7 +75,7 @@ def test_image_light_on_film_covered_dielectric(row_of_pixels, camera, plan) -> 
     inputs = row_of_pixels(
         iridescence_factor=1, dfg_a=0.75, dfg_b=0.125, irradiance=(1, 1, 1), reflected_radiance=(2, 2, 2)
     )
-    shading = shade(all_pixels(inputs, camera), plan(method="painted"), 1.4, [], film)
+    shading = shade(*all_pixels(inputs, camera), plan(method="painted"), 1.4, [], film)
     scaled = 0.875 * film.colour
     np.testing.assert_allclose(shading.rgb[0], (1 - scaled.max()) * BASE + 2 * scaled, rtol=1e-12)
 
@@ -92,22 +93,22 @@ def test_white_metal_and_white_dielectric_vanish_in_a_white_room(
             irradiance=(1, 1, 1),
             reflected_radiance=(1, 1, 1),
         )
-        shading = shade(all_pixels(inputs, camera), plan(layering=layering), 1.0, [], NO_FILM)
+        shading = shade(*all_pixels(inputs, camera), plan(layering=layering), 1.0, [], NO_FILM)
         np.testing.assert_allclose(shading.rgb[0], np.ones(3), rtol=1e-7)
 
 
 def test_specular_weight_reaches_the_base_under_the_film(row_of_pixels, camera, plan) -> None:
     film = PaintedFilm([0.1, 0.1, 0.1])
     pixels = all_pixels(row_of_pixels(iridescence_factor=1, specular_weight=0.5), camera)
-    shade(pixels, plan(method="painted", layering="specular"), 1.4, [], film)
+    shade(*pixels, plan(method="painted", layering="specular"), 1.4, [], film)
     np.testing.assert_allclose(film.films[0].base.f0[0], 0.5 * F0)
 
 
 def test_emission_is_added_and_unlit_is_the_base_colour(row_of_pixels, camera, plan, sun) -> None:
     pixels = all_pixels(row_of_pixels(emission=(7, 0, 0)), camera)
-    lit_from_behind = shade(pixels, plan(), 1.0, [sun((0.0, 0.0, 1.0))], NO_FILM)
+    lit_from_behind = shade(*pixels, plan(), 1.0, [sun((0.0, 0.0, 1.0))], NO_FILM)
     np.testing.assert_array_equal(lit_from_behind.rgb[0], [7, 0, 0])
-    unlit = shade(pixels, plan(Effect.UNLIT), 1.0, [sun()], NO_FILM)
+    unlit = shade(*pixels, plan(Effect.UNLIT), 1.0, [sun()], NO_FILM)
     np.testing.assert_array_equal(unlit.rgb[0], BASE)
 
 
@@ -116,7 +117,7 @@ def test_undefined_rows_are_counted_once_however_many_lights_meet_them(
 ) -> None:
     film = PaintedFilm([0.1, 0.1, 0.1], undefined=("division by zero",))
     pixels = all_pixels(row_of_pixels(4, iridescence_factor=1), camera)
-    shading = shade(pixels, plan(method="painted"), 1.4, [sun(), sun()], film)
+    shading = shade(*pixels, plan(method="painted"), 1.4, [sun(), sun()], film)
     assert int(shading.undefined["division by zero"].sum()) == 4
 
 
@@ -124,7 +125,7 @@ def test_orthographic_camera_sees_everything_along_its_axis(row_of_pixels) -> No
     view = np.eye(4)
     camera = Camera("flat", "orthographic", view, znear_m=0.1, zfar_m=10.0, xmag_m=1.0, ymag_m=1.0)
     pixels = all_pixels(row_of_pixels(position=(5, 3, -2)), camera)
-    np.testing.assert_array_equal(pixels.view, [[0.0, 0.0, 1.0]])
+    np.testing.assert_array_equal(pixels[0].view, [[0.0, 0.0, 1.0]])
 
 
 def lamp(kind: str, **values) -> Light:
