@@ -6,7 +6,7 @@ import logging
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -19,7 +19,7 @@ from gltf_iri.cli.common import (
     print_table,
     progress,
 )
-from gltf_iri.cli.picture_options import EMPTY_PICTURE, SIZE, exposure_option
+from gltf_iri.cli.picture_options import EMPTY_PICTURE, SIZE, choose_exposure, exposure_option
 
 if TYPE_CHECKING:
     from gltf_iri.comparison.result import Comparison
@@ -44,7 +44,7 @@ __all__ = ["command"]
 @click.option(
     "--camera", type=int, metavar="I", help="Camera of the file; its first, or framed if it has none."
 )
-@exposure_option
+@exposure_option("auto")
 @click.option(
     "--white", type=click.Choice(["D65", "E"]), default="D65", show_default=True, help="White of the truth."
 )
@@ -56,7 +56,7 @@ def command(
     size: tuple[int, int],
     env: str,
     camera: int | None,
-    exposure: float,
+    exposure: float | Literal["auto"] | None,
     white: str,
     as_json: bool,
 ) -> None:
@@ -91,7 +91,7 @@ def command(
             view,
             environment,
             size=size,
-            exposure=exposure,
+            exposure=choose_exposure(exposure, scene, environment),
             white=white,
             advance=advance,
         )

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Literal
+
 import click
 
-__all__ = ["EMPTY_PICTURE", "SIZE", "exposure_option"]
+if TYPE_CHECKING:
+    from gltf_iri.scene.model import Environment, Scene
+
+__all__ = ["EMPTY_PICTURE", "SIZE", "choose_exposure", "exposure_option"]
 
 EMPTY_PICTURE = "Nothing of the model is in the picture: it lies out of the camera's sight or has no extent."
 
-_EXPOSURE_MAX = 64.0  # 2^64 and 2^-64 are far beyond any light and well inside float32
+_EXPOSURE_MAX_EV = 64.0  # the bound of gltf_iri.scene.exposure, which is not imported before it is needed
 
 
 class _Size(click.ParamType):  # type: ignore[type-arg,unused-ignore]  # generic only in some versions of click
@@ -30,18 +36,43 @@ class _Size(click.ParamType):  # type: ignore[type-arg,unused-ignore]  # generic
 SIZE = _Size()
 
 
-def _checked_exposure(context: click.Context, option: click.Parameter, value: float) -> float:
-    if not abs(value) <= _EXPOSURE_MAX:  # NaN, which is smaller than nothing, included
-        raise click.BadParameter(f"{value} is not between {-_EXPOSURE_MAX:g} and {_EXPOSURE_MAX:g}.")
-    return value
+class _Exposure(click.ParamType):  # type: ignore[type-arg,unused-ignore]
+    """A number of stops, or auto."""
+
+    name = "EV|auto"
+
+    def convert(
+        self, value: object, param: click.Parameter | None, ctx: click.Context | None
+    ) -> float | Literal["auto"]:
+        if value == "auto":
+            return "auto"
+        try:
+            stops = float(str(value))
+        except ValueError:
+            self.fail(f"'{value}' is neither a number nor auto.", param, ctx)
+        if not abs(stops) <= _EXPOSURE_MAX_EV:  # NaN, which is smaller than nothing, included
+            self.fail(f"{value} is not between {-_EXPOSURE_MAX_EV:g} and {_EXPOSURE_MAX_EV:g}.", param, ctx)
+        return stops
 
 
-exposure_option = click.option(
-    "--exposure",
-    type=float,
-    callback=_checked_exposure,
-    default=0.0,
-    show_default=True,
-    metavar="EV",
-    help="Brighter by 2^EV.",
-)
+def exposure_option(default: str) -> Callable[[Any], Any]:
+    """Return the option `--exposure`, None where it is left out; `default` says what happens then."""
+    return click.option(
+        "--exposure",
+        type=_Exposure(),
+        help=f"Brighter by 2^EV; auto: as an incident light meter reads.  [default: {default}]",
+    )
+
+
+def choose_exposure(
+    asked: float | Literal["auto"] | None,
+    scene: Scene,
+    environment: Environment | None,
+    *,
+    default: str = "auto",
+) -> float:
+    """Return the exposure in EV: as asked for, or `default`, which is "auto" or a number as text."""
+    from gltf_iri.scene.exposure import automatic_exposure
+
+    wanted = default if asked is None else asked
+    return automatic_exposure(scene, environment) if wanted == "auto" else float(wanted)

@@ -1,18 +1,24 @@
-"""`gltf-iri render`: draw a file to a picture."""
+"""`gltf-iri render`: draw a file to a picture, or to pictures from all around."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
 from gltf_iri.cli.common import file_argument, json_option, note, print_json, progress
-from gltf_iri.cli.picture_options import EMPTY_PICTURE, SIZE, exposure_option
+from gltf_iri.cli.picture_options import EMPTY_PICTURE, SIZE, choose_exposure, exposure_option
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from gltf_iri.planning.material_plan import MaterialPlan
+    from gltf_iri.rendering.frame import Frame
+    from gltf_iri.scene.model import Camera
 
 __all__ = ["command"]
 
@@ -22,18 +28,30 @@ _TONE_MAPS = ("none", "neutral", "aces")
 @click.command(name="render")
 @file_argument
 @click.option(
-    "-o", "--out", required=True, type=click.Path(path_type=Path), help="Picture: OUT.png or OUT.exr."
+    "-o",
+    "--out",
+    required=True,
+    type=click.Path(path_type=Path),
+    help="Picture: OUT.png, OUT.webp or OUT.exr.",
 )
 @click.option("--size", type=SIZE, default="640x480", show_default=True, help="Size in pixels.")
 @click.option(
     "--env", default="studio", show_default=True, metavar="FILE|studio|white|none", help="Image light."
 )
-@exposure_option
+@exposure_option("auto, in EXR 0")
 @click.option(
-    "--tonemap", type=click.Choice(_TONE_MAPS), help="How light becomes a PNG's colours.  [default: neutral]"
+    "--tonemap",
+    type=click.Choice(_TONE_MAPS),
+    help="How light becomes the colours of PNG and WebP.  [default: neutral]",
 )
 @click.option(
     "--camera", type=int, metavar="I", help="Camera of the file; its first, or framed if it has none."
+)
+@click.option(
+    "--orbit",
+    type=int,
+    metavar="N",
+    help="N pictures once around the scene: an animated WebP, or OUT-000.png and so on.",
 )
 @click.option("--method", metavar="NAME", help="Film method; the plan chooses when left out.")
 @json_option
@@ -42,40 +60,54 @@ def command(
     out: Path,
     size: tuple[int, int],
     env: str,
-    exposure: float,
+    exposure: float | Literal["auto"] | None,
     tonemap: str | None,
     camera: int | None,
+    orbit: int | None,
     method: str | None,
     as_json: bool,
 ) -> None:
     """Draw FILE to OUT without a window.
 
-    PNG is 8-bit sRGB, tone mapped. EXR is linear float32 Rec.709, never tone mapped; its alpha tells how much
-    of a pixel the model covers. Behind the model is the environment out of focus, in the studio a grey card.
+    PNG is 8-bit sRGB, tone mapped; WebP the same, smaller and not exact. EXR is linear float32 Rec.709, never
+    tone mapped; its alpha tells how much of a pixel the model covers. Behind the model is the environment out
+    of focus, in the studio a card.
     """
     from gltf_iri.errors import UsageError
     from gltf_iri.planning.decide import complete_plans, plan_materials
     from gltf_iri.rendering.context import create_context
-    from gltf_iri.rendering.picture import check_picture_path, write_picture
+    from gltf_iri.rendering.picture import check_picture_path, write_orbit, write_picture
     from gltf_iri.rendering.programs import check_method
     from gltf_iri.rendering.render import Renderer
     from gltf_iri.scene.choose import choose_camera, choose_environment
+    from gltf_iri.scene.framing import orbit_scene
     from gltf_iri.scene.load import load
 
     check_picture_path(out)
     check_method(method)
-    if tonemap not in (None, "none") and out.suffix.lower() == ".exr":
+    is_linear = out.suffix.lower() == ".exr"
+    if tonemap not in (None, "none") and is_linear:
         raise UsageError(f"EXR keeps linear light and is not tone mapped; leave '--tonemap {tonemap}' out.")
-    with progress("Drawing", 3) as advance:
-        environment = choose_environment(env)
-        model = load(file)
-        scene = model.scene()
-        view = choose_camera(scene, camera, size)
-        plans = complete_plans(plan_materials(model.materials, method=method), scene)
-        advance()
-        frame = Renderer(create_context()).render(model, scene, plans, view, environment, size=size)
-        advance()
-        write_picture(out, frame.rgba, exposure, tonemap or "neutral")
+    if orbit is not None and camera is not None:
+        raise UsageError("An orbit has its own cameras; leave '--camera' or '--orbit' out.")
+    environment = choose_environment(env)
+    model = load(file)
+    scene = model.scene()
+    if orbit is None:
+        views: tuple[Camera, ...] = (choose_camera(scene, camera, size),)
+    else:
+        views = orbit_scene(scene, aspect=max(size[0], 1) / max(size[1], 1), count=orbit)
+    plans = complete_plans(plan_materials(model.materials, method=method), scene)
+    exposure_ev = choose_exposure(exposure, scene, environment, default="0" if is_linear else "auto")
+    renderer = Renderer(create_context())
+    drawn = _Drawn(lambda view: renderer.render(model, scene, plans, view, environment, size=size))
+    with progress("Drawing", len(views) + 1) as advance:
+        pictures = drawn.pictures(views, advance)
+        paths: tuple[Path, ...] = (out,)
+        if orbit is None:
+            write_picture(out, next(pictures), exposure_ev, tonemap or "neutral")
+        else:
+            paths = write_orbit(out, pictures, len(views), exposure_ev, tonemap or "neutral")
         advance()
 
     used = [plan for plan in plans if plan.index in {primitive.material for primitive in scene.primitives}]
@@ -85,33 +117,62 @@ def command(
             *model.document.notes,  # by now with what was found in its pictures
             *scene.notes,
             *(environment.notes if environment else ()),
-            *frame.notes,
+            *drawn.notes,
         )
     )
-    if not frame.rgba[..., 3].any():
-        notes[EMPTY_PICTURE] = None
+    told: dict[str, Any] = {
+        "out": paths[0],
+        "outputs": paths,
+        "size": list(size),
+        "renderer": drawn.renderer,
+        "ms": round(drawn.milliseconds, 3),
+        "method": next((plan.method for plan in used if plan.method is not None), None),
+        "environment": environment.name if environment else None,
+        "exposure": exposure_ev,
+        "camera": views[0].name,
+        "not_drawn": [
+            {"material": plan.index, "name": plan.name, "effects": dict(plan.not_drawn)}
+            for plan in used
+            if plan.not_drawn
+        ],
+        "notes": list(notes),
+    }
     if as_json:
-        print_json(
-            {
-                "out": out,
-                "size": list(size),
-                "renderer": frame.renderer,
-                "ms": round(frame.milliseconds, 3),
-                "method": next((plan.method for plan in used if plan.method is not None), None),
-                "environment": environment.name if environment else None,
-                "camera": view.name,
-                "not_drawn": [
-                    {"material": plan.index, "name": plan.name, "effects": dict(plan.not_drawn)}
-                    for plan in used
-                    if plan.not_drawn
-                ],
-                "notes": list(notes),
-            }
-        )
+        print_json(told)
         return
     for text in (*notes, *_not_drawn(used)):
         note(text)
-    click.echo(f"{out} ({size[0]} × {size[1]}, drawn in {frame.milliseconds:.0f} ms by {frame.renderer})")
+    click.echo(_summary(told, count=len(views)))
+
+
+@dataclass
+class _Drawn:
+    """Draws pictures as they are asked for, and adds up what is told about them."""
+
+    draw: Callable[[Camera], Frame]
+    renderer: str = ""
+    milliseconds: float = 0.0
+    notes: tuple[str, ...] = ()
+
+    def pictures(self, views: Sequence[Camera], advance: Callable[[], None]) -> Iterator[NDArray[np.float32]]:
+        is_empty = True
+        for view in views:
+            frame = self.draw(view)
+            self.renderer = frame.renderer
+            self.milliseconds += frame.milliseconds
+            is_empty = is_empty and not frame.rgba[..., 3].any()
+            empty = (EMPTY_PICTURE,) if is_empty and view is views[-1] else ()
+            self.notes = tuple(dict.fromkeys((*self.notes, *frame.notes, *empty)))
+            advance()
+            yield frame.rgba
+
+
+def _summary(told: dict[str, Any], *, count: int) -> str:
+    paths, (width, height), ev = told["outputs"], told["size"], told["exposure"]
+    names = str(paths[0]) if len(paths) == 1 else f"{paths[0]} … {paths[-1].name}"
+    size = f"{width} × {height}" if count == 1 else f"{count} pictures, {width} × {height}"
+    exposed = f"{ev:+g} EV" if ev else "0 EV"
+    return f"{names} ({size}, {exposed}, drawn in {told['ms']:.0f} ms by {told['renderer']})"
 
 
 def _not_drawn(plans: Iterable[MaterialPlan]) -> Iterator[str]:

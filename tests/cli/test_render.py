@@ -35,7 +35,7 @@ def triangle(tmp_path):
                         "max": [1, 1, 0],
                     }
                 ],
-                "materials": [{"extensions": {"KHR_materials_iridescence": film}}],
+                "materials": [{"doubleSided": True, "extensions": {"KHR_materials_iridescence": film}}],
                 "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
                 "nodes": [{"mesh": 0}],
                 "scenes": [{"nodes": [0]}],
@@ -55,13 +55,15 @@ def test_an_empty_picture_is_told(gl_context, triangle, tmp_path, capsys):
     assert "note: Nothing of the model is in the picture" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("name", ["out.png", "out.exr"])
+@pytest.mark.parametrize("name", ["out.png", "out.webp", "out.exr"])
 def test_json_tells_what_was_drawn(gl_context, triangle, tmp_path, capsys, name):
     out = tmp_path / name
     assert run(["render", str(triangle), "-o", str(out), "--size", "32x24", "--env", "white", "--json"]) == 0
     told = json.loads(capsys.readouterr().out)
     assert out.stat().st_size > 0
     assert told["out"] == str(out)
+    assert told["outputs"] == [str(out)]
+    assert told["exposure"] == 0.0
     assert told["size"] == [32, 24]
     assert told["renderer"] and told["ms"] > 0.0
     assert told["method"] == "khr-guarded"
@@ -77,7 +79,7 @@ def test_the_method_asked_for_is_used(gl_context, triangle, tmp_path, capsys):
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["-o", "a.gif"], ".png or .exr"),
+        (["-o", "a.gif"], ".webp or .exr"),
         (["-o", "nowhere/a.png"], "nowhere"),
         (["-o", "a.png", "--size", "640"], "640"),
         (["-o", "a.png", "--size", "0x8"], "0 × 8"),
@@ -87,7 +89,11 @@ def test_the_method_asked_for_is_used(gl_context, triangle, tmp_path, capsys):
         (["-o", "a.png", "--camera", "2"], "no camera 2"),
         (["-o", "a.png", "--env", "missing.hdr"], "missing.hdr"),
         (["-o", "a.png", "--exposure", "nan"], "nan"),
+        (["-o", "a.png", "--exposure", "bright"], "neither a number nor auto"),
         (["-o", "a.exr", "--tonemap", "aces"], "not tone mapped"),
+        (["-o", "a.webp", "--orbit", "0"], "not 0"),
+        (["-o", "a.webp", "--orbit", "1000000000"], "1 to 360"),
+        (["-o", "a.webp", "--orbit", "4", "--camera", "0"], "its own cameras"),
         ([], "--out"),
     ],
 )
@@ -100,3 +106,71 @@ def test_a_wrong_call_is_one_sentence_and_code_2(
     assert streams.out == ""
     assert said in streams.err and len(streams.err.strip().splitlines()) == 1
     assert [path.name for path in tmp_path.iterdir()] == ["triangle.gltf"]
+
+
+@pytest.fixture
+def sunlit(triangle):
+    """The triangle under a sun of π lux, so that a white card which faces it has radiance 1."""
+    gltf = json.loads(triangle.read_text())
+    gltf["extensionsUsed"].append("KHR_lights_punctual")
+    gltf["extensions"] = {
+        "KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": float(np.pi)}]}
+    }
+    gltf["nodes"].append({"extensions": {"KHR_lights_punctual": {"light": 0}}})
+    gltf["scenes"][0]["nodes"].append(1)
+    triangle.write_text(json.dumps(gltf))
+    return triangle
+
+
+@pytest.mark.parametrize(
+    ("name", "options", "exposure"),
+    [
+        ("a.png", [], -1.0),
+        ("a.exr", [], 0.0),
+        ("a.exr", ["--exposure", "auto"], -1.0),
+        ("a.webp", ["--exposure", "0.5"], 0.5),
+    ],
+)
+def test_pictures_for_eyes_follow_the_light_and_numbers_do_not(
+    gl_context, sunlit, tmp_path, capsys, name, options, exposure
+):
+    call = ["render", str(sunlit), "-o", str(tmp_path / name), "--size", "8x8", "--env", "white", "--json"]
+    assert run([*call, *options]) == 0
+    assert json.loads(capsys.readouterr().out)["exposure"] == exposure
+
+
+def test_the_exposure_that_is_told_gives_the_same_picture(gl_context, sunlit, tmp_path, capsys):
+    for options in ([], ["--exposure", "-1"]):
+        out = tmp_path / f"{len(options)}.png"
+        call = ["render", str(sunlit), "-o", str(out), "--size", "16x16", "--env", "white"]
+        assert run([*call, *options]) == 0
+        assert "-1 EV" in capsys.readouterr().out
+    assert (tmp_path / "0.png").read_bytes() == (tmp_path / "2.png").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("name", "names"),
+    [("a.webp", ["a.webp"]), ("a.png", [f"a-00{i}.png" for i in range(5)])],
+)
+def test_an_orbit_tells_every_file_that_it_wrote(gl_context, triangle, tmp_path, capsys, name, names):
+    from PIL import Image
+
+    folder = tmp_path / "turn"
+    folder.mkdir()
+    call = ["render", str(triangle), "-o", str(folder / name), "--size", "32x24", "--orbit", "5", "--json"]
+    assert run(call) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["outputs"] == [str(folder / name) for name in names]
+    assert told["out"] == told["outputs"][0]
+    assert sorted(path.name for path in folder.iterdir()) == names
+    for path in folder.iterdir():
+        with Image.open(path) as picture:
+            assert picture.size == (32, 24)
+            assert getattr(picture, "n_frames", 1) == (5 if len(names) == 1 else 1)
+
+
+def test_the_bounds_of_the_options_are_those_of_the_parts():
+    from gltf_iri.cli import picture_options
+    from gltf_iri.scene.exposure import EXPOSURE_MAX_EV
+
+    assert picture_options._EXPOSURE_MAX_EV == EXPOSURE_MAX_EV
