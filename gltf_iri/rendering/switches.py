@@ -12,13 +12,15 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.method import METHODS
 from gltf_iri.planning.permutation import LAYERING_SPECULAR
 
-__all__ = ["SHADING_INPUTS", "SWITCHES"]
+__all__ = ["LAYER_INPUTS", "SHADING_INPUTS", "SWITCHES"]
 
-# The frame also receives what each pixel was shaded with (rendering/frame.py).
+# In place of the picture: what each pixel was shaded with, in the first or the second set of targets
+# (rendering/frame.py). One of the two, never both.
 SHADING_INPUTS: Final = "SHADING_INPUTS"
+LAYER_INPUTS: Final = "LAYER_INPUTS"
 
 SWITCHES: Final = frozenset(
     {effect.define for effect in Effect}
     | {method.define for method in METHODS.values() if method.glsl_function}
-    | {LAYERING_SPECULAR, SHADING_INPUTS}
+    | {LAYERING_SPECULAR, SHADING_INPUTS, LAYER_INPUTS}
 )
