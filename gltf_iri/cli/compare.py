@@ -69,6 +69,7 @@ def command(
     from gltf_iri.errors import AssetError, UsageError
     from gltf_iri.planning.decide import plan_materials
     from gltf_iri.rendering.context import create_context
+    from gltf_iri.rendering.render import Renderer
     from gltf_iri.scene.choose import choose_camera, choose_environment
     from gltf_iri.scene.load import load
 
@@ -84,7 +85,7 @@ def command(
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     with progress("Comparing", len(STEPS) + 1) as advance:
         comparison = compare(
-            create_context(),
+            Renderer(create_context()),
             model,
             scene,
             plans,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -19,16 +18,13 @@ from gltf_iri.rendering.render import Renderer
 from gltf_iri.scene.load import Model
 from gltf_iri.scene.model import Camera, Environment, Scene
 
-if TYPE_CHECKING:
-    import moderngl
-
 __all__ = ["STEPS", "compare"]
 
 STEPS = ("drawing", "drawing with 8-bit textures", "shading again in Python")
 
 
 def compare(
-    context: moderngl.Context,
+    renderer: Renderer,
     model: Model,
     scene: Scene,
     plans: Sequence[MaterialPlan],
@@ -44,6 +40,7 @@ def compare(
 
     Parameters
     ----------
+    renderer : stays the caller's; one may serve many files.
     plans : one for each material of `model`; the default material's is added where the scene uses it.
     size : width and height in pixels; each pixel is compared, none is sampled for another.
     exposure : in EV; linear light is multiplied by 2^exposure before ΔE2000 and for the pictures.
@@ -55,14 +52,10 @@ def compare(
     plans = complete_plans(plans, scene)
     arguments = (model, scene, plans, camera, environment)
     has_textures = any(effect.value.endswith("-texture") for plan in plans for effect in plan.effects)
-    renderer = Renderer(context)
-    try:
-        fine = renderer.render(*arguments, size=size, float_textures=True, with_inputs=True)
-        advance()
-        coarse = renderer.render(*arguments, size=size, with_inputs=True) if has_textures else None
-        advance()
-    finally:
-        renderer.release()
+    fine = renderer.render(*arguments, size=size, float_textures=True, with_inputs=True)
+    advance()
+    coarse = renderer.render(*arguments, size=size, with_inputs=True) if has_textures else None
+    advance()
     shot = Shot(
         file=model.path.name,
         materials=(*model.materials, Material()),  # DEFAULT_MATERIAL, −1, finds the last

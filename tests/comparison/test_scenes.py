@@ -14,6 +14,7 @@ from gltf_iri.cli.main import run
 from gltf_iri.comparison import judge as judge_module
 from gltf_iri.comparison.run import compare
 from gltf_iri.planning.decide import plan_materials
+from gltf_iri.rendering.render import Renderer
 from gltf_iri.resources import spec_root
 from gltf_iri.samples.collection import write_samples
 from gltf_iri.scene.environment import studio
@@ -51,7 +52,11 @@ def compared(context, path: Path, method: str | None = None):
     scene = replace(scene, lights=(*scene.lights, *LIGHTS))
     plans = plan_materials(model.materials, method=method)
     camera = frame_scene(scene, aspect=1.0)
-    return compare(context, model, scene, plans, camera, studio(), size=SIZE)
+    renderer = Renderer(context)
+    try:
+        return compare(renderer, model, scene, plans, camera, studio(), size=SIZE)
+    finally:
+        renderer.release()
 
 
 def check(comparison, record_property) -> None:
