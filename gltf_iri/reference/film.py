@@ -1,0 +1,56 @@
+"""The film of one material at many points, by any method, and what the method left undefined there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.evaluation.film import Evaluation, Film, base_from_f0
+from gltf_iri.reference.surface import Surface
+
+__all__ = ["FilmMethod", "FilmOn"]
+
+Float64 = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+FilmMethod = Callable[[Film], Evaluation]
+
+
+@dataclass(slots=True)
+class FilmOn:
+    """The film on the n points of `surface`; its outside is air, also under a clearcoat.
+
+    film_ior : not read where the surface has no film (iridescence factor 0).
+    method : maps a `Film` to its reflectance colours.
+    white : the method's own; "" until a film was evaluated.
+    undefined : for each undefined case of the method's text that occurred, the points (n,) it touched.
+    """
+
+    surface: Surface
+    film_ior: float
+    method: FilmMethod
+    white: str = ""
+    undefined: dict[str, Mask] = field(default_factory=dict)
+
+    @property
+    def has_film(self) -> Mask:
+        """Where (n,) there is a film."""
+        return np.asarray(self.surface.iridescence_factor > 0.0)
+
+    def __call__(self, base_f0: Float64, cos_theta: Float64, needed: Mask) -> Float64:
+        """Return the film's reflectance (n, 3) over `base_f0`; 0 where there is no film or none is needed."""
+        rgb = np.zeros_like(base_f0)
+        rows = self.has_film & needed
+        if not rows.any():
+            return rgb
+        thickness_nm = self.surface.iridescence_thickness_nm[rows]
+        film = Film.of(cos_theta[rows], thickness_nm, self.film_ior, base_from_f0(base_f0[rows]))
+        evaluation = self.method(film)
+        rgb[rows] = evaluation.rgb
+        self.white = evaluation.white
+        for case, touched in evaluation.undefined.items():
+            mask = self.undefined.setdefault(case, np.zeros(rows.shape, dtype=np.bool_))
+            mask[rows] |= np.broadcast_to(touched, film.shape)
+        return rgb

@@ -1,0 +1,106 @@
+"""How a surface sends light on: its lobes, mixed and layered, for light from one direction a point.
+
+The one statement in Python of what shaders/lighting/lobes.glsl does. Sources: glTF 2.0 Appendix B;
+KHR_materials_iridescence, Implementation Notes; KHR_materials_specular; KHR_materials_transmission.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.optics.fresnel import f_schlick
+from gltf_iri.optics.layering import (
+    Layer,
+    iridescent_conductor_layer,
+    iridescent_dielectric_layer,
+    iridescent_dielectric_layer_specular,
+)
+from gltf_iri.optics.microfacet import d_ggx, v_smith_ggx_correlated
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.surface import Surface
+
+__all__ = ["Reflectances", "evaluate_lobes", "film_reflectances", "layered_reflectances"]
+
+Float64 = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class Reflectances:
+    """What the interface reflects: the dielectric's layer over its base, and the metal's (n, 3)."""
+
+    dielectric: Layer
+    metal: Float64
+
+
+def evaluate_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan: MaterialPlan) -> Float64:
+    """Return f·|cosθ|, (n, 3): what the surface sends towards the viewer per illuminance from one direction.
+
+    In front, base_weight·c/π + F·V·D, film and Schlick at V·H (glTF 2.0 Appendix B.2). Behind a wall without
+    volume, transmitted light: the lobe of the light mirrored to the front, (1 − m)·t·c·T·V·D, with T = 1 − R
+    of each channel. Nothing passes through a volume here: bent light of a point source would be a caustic.
+
+    Parameters
+    ----------
+    towards_light : (n, 3), unit.
+    film : on the same surface.
+    """
+    cosine = np.sum(surface.normal * towards_light, axis=1)
+    is_thin = plan.calls_for(Effect.TRANSMISSION) and not plan.calls_for(Effect.VOLUME)
+    is_through = (cosine < 0.0) & (surface.transmission > 0.0) & is_thin
+    is_lit = (cosine > 0.0) | is_through
+    # Light that comes through is bent nowhere: the facets see it as if it came mirrored, from the front.
+    mirrored = towards_light - 2.0 * np.minimum(cosine, 0.0)[:, None] * surface.normal
+    n_dot_l = np.clip(np.abs(cosine), 0.0, 1.0)
+    half = surface.view + mirrored
+    length = np.linalg.norm(half, axis=1, keepdims=True)
+    # Looking straight into a light there is no half vector, and no facet that could mirror it.
+    half = half / np.where(length > 0.0, length, 1.0)
+    v_dot_h = np.clip(np.sum(surface.view * half, axis=1), 0.0, 1.0)
+    n_cross_h = np.cross(surface.normal, half)
+    facets = d_ggx(np.sum(n_cross_h * n_cross_h, axis=1), surface.alpha) * v_smith_ggx_correlated(
+        n_dot_l, surface.n_dot_v, surface.alpha
+    )
+    c = v_dot_h[:, None]
+    layers = layered_reflectances(
+        surface,
+        plan,
+        (f_schlick(surface.dielectric_f0, c), f_schlick(surface.base_color, c)),
+        film_reflectances(surface, plan, film, v_dot_h, is_lit),
+    )
+    lobe = facets[:, None]
+    m, t = surface.metallic[:, None], surface.transmission[:, None]
+    diffuse = layers.dielectric.base_weight[:, None] * surface.base_color / np.pi
+    in_front = (1.0 - m) * ((1.0 - t) * diffuse + layers.dielectric.specular * lobe) + m * layers.metal * lobe
+    through = (1.0 - m) * t * surface.base_color * np.clip(1.0 - layers.dielectric.specular, 0.0, 1.0) * lobe
+    sent = np.where(is_through[:, None], through, in_front)
+    return np.asarray(np.where((is_lit & (length[:, 0] > 0.0))[:, None], n_dot_l[:, None] * sent, 0.0))
+
+
+def film_reflectances(
+    surface: Surface, plan: MaterialPlan, film: FilmOn, cos_theta: Float64, needed: Mask
+) -> tuple[Float64, Float64]:
+    """Return the film's reflectances over dielectric and metal, (n, 3) each; 0 where not needed."""
+    # With KHR_materials_specular the reflection's weight belongs to the base under the film.
+    weight = surface.specular_weight[:, None] if plan.layering == "specular" else 1.0
+    return (
+        film(weight * surface.dielectric_f0, cos_theta, needed & (surface.metallic < 1.0)),
+        film(surface.base_color, cos_theta, needed & (surface.metallic > 0.0)),
+    )
+
+
+def layered_reflectances(
+    surface: Surface, plan: MaterialPlan, plain: tuple[Float64, Float64], filmed: tuple[Float64, Float64]
+) -> Reflectances:
+    """Mix the reflectances (n, 3) without and with film, each over the dielectric and over the metal."""
+    strength, weight = surface.iridescence_factor, surface.specular_weight
+    if plan.layering == "specular":
+        layer = iridescent_dielectric_layer_specular(strength, weight, plain[0], filmed[0])
+    else:
+        layer = iridescent_dielectric_layer(strength, plain[0], filmed[0])
+    return Reflectances(layer, iridescent_conductor_layer(strength, plain[1], filmed[1]))

@@ -1,0 +1,156 @@
+"""Paints rows of a picture: casts their rays, gathers what they meet, lights it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from typing import Final, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.planning.effects import Effect
+from gltf_iri.reference.cutout import coverage
+from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.gather import gather_surface
+from gltf_iri.reference.points import gather_points
+from gltf_iri.reference.rays import camera_rays
+from gltf_iri.reference.shade import punctual_light
+from gltf_iri.reference.stage import Stage
+from gltf_iri.reference.surface import Surface
+from gltf_iri.reference.tracer import Hits, Tracer
+from gltf_iri.scene.model import Camera, Environment
+
+__all__ = ["LIGHTINGS", "Job", "Lighting", "Painter", "Tile"]
+
+Float64 = NDArray[np.float64]
+Int64 = NDArray[np.int64]
+
+Lighting = Literal["punctual", "image", "all"]
+LIGHTINGS: Final[tuple[Lighting, ...]] = ("punctual", "image", "all")
+
+# Blended surfaces that a ray passes; what lies behind that many adds nothing that could be seen.
+_MAX_BLENDED: Final = 64
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """A picture to paint; see `render_reference`. May be sent to other processes."""
+
+    stage: Stage
+    camera: Camera
+    environment: Environment | None
+    size: tuple[int, int]
+    film_method: str | None
+    white: str
+    lighting: Lighting
+    is_blending: bool
+    image_samples: int
+    path_depth: int
+    paths: int
+    seed: int
+
+
+@dataclass(frozen=True, slots=True)
+class Tile:
+    """n pixels of a picture, row by row; the fields are those of `ReferenceFrame`."""
+
+    rgba: Float64  # (n, 4), premultiplied
+    material: Int64  # (n,)
+    depth_m: Float64  # (n,)
+    standard_error: Float64  # (n, 3)
+
+    @classmethod
+    def blank(cls, count: int) -> Tile:
+        """Return a tile on which nothing was drawn."""
+        return cls(np.zeros((count, 4)), np.full(count, -1), np.full(count, np.inf), np.zeros((count, 3)))
+
+
+class Painter:
+    """Holds what all tiles of a job need. Raises MissingCapabilityError where embreex is not installed."""
+
+    def __init__(self, job: Job) -> None:
+        self._job = job
+        self._tracer = Tracer(job.stage)
+        blended = [plan.calls_for(Effect.ALPHA_BLEND) for plan in job.stage.plans]
+        self._is_blended = np.asarray(blended) & job.is_blending
+        self._slots = np.asarray(job.stage.slots)
+
+    def paint(self, index: int, rows: tuple[int, int]) -> Tile:
+        """Return tile number `index`, which covers `rows` (first, one past the last)."""
+        job = self._job
+        rng = np.random.default_rng([job.seed, index])
+        origins, directions, lengths = camera_rays(job.camera, job.size, rows)
+        tile = Tile.blank(len(origins))
+        left = np.arange(len(origins))
+        start = np.zeros(len(origins))
+        for _ in range(_MAX_BLENDED):
+            hits = self._tracer.first_hits(origins[left], directions[left], t_min=start, t_max=lengths[left])
+            left, hits = left[hits.valid], _only(hits, hits.valid)
+            if not len(left):
+                break
+            colour, error = self._colours(hits, directions[left], rng)
+            alpha = self._alpha(hits)
+            share = (1.0 - tile.rgba[left, 3]) * alpha
+            tile.rgba[left, :3] += share[:, None] * colour
+            tile.rgba[left, 3] += share
+            tile.standard_error[left] = np.hypot(tile.standard_error[left], share[:, None] * error)
+            position = origins[left] + hits.distance[:, None] * directions[left]
+            depth_m = -(position @ job.camera.view[2, :3] + job.camera.view[2, 3])
+            is_first = tile.material[left] < 0
+            tile.depth_m[left[is_first]] = depth_m[is_first]
+            tile.material[left[is_first]] = self._slots[hits.primitive[is_first]]
+            going_on = alpha < 1.0
+            start = hits.distance[going_on] + self._tracer.clearance_m
+            left = left[going_on]
+        return tile
+
+    def _alpha(self, hits: Hits) -> Float64:
+        """Return how much (n,) of what lies behind each hit it hides."""
+        alpha = np.ones(len(hits.primitive))
+        rows = np.flatnonzero(self._is_blended[self._slots[hits.primitive]])
+        if len(rows):
+            found = hits.primitive[rows], hits.triangle[rows], hits.barycentric[rows]
+            alpha[rows] = np.clip(coverage(self._job.stage, *found), 0.0, 1.0)
+        return alpha
+
+    def _colours(self, hits: Hits, directions: Float64, rng: np.random.Generator) -> tuple[Float64, Float64]:
+        """Return linear colours and their standard errors, (n, 3) each; all of `hits` must be valid."""
+        colour, error = np.zeros_like(directions), np.zeros_like(directions)
+        slots = self._slots[hits.primitive]
+        for slot in np.unique(slots):
+            rows = np.flatnonzero(slots == slot)
+            here = _only(hits, rows)
+            points = gather_points(
+                self._job.stage.scene, here.primitive, here.triangle, here.barycentric, here.is_front
+            )
+            surface = gather_surface(self._job.stage, int(slot), points, -directions[rows])
+            colour[rows], error[rows] = self._shade(int(slot), surface, rng)
+        return colour, error
+
+    def _shade(self, slot: int, surface: Surface, rng: np.random.Generator) -> tuple[Float64, Float64]:
+        job = self._job
+        plan, material = job.stage.plans[slot], job.stage.materials[slot]
+        exact = np.zeros_like(surface.base_color)
+        if plan.calls_for(Effect.UNLIT):
+            return surface.base_color, exact
+        film_ior = (material.iridescence or Iridescence()).film_ior
+        name = job.film_method or plan.method or "spectral"
+        film = FilmOn(surface, film_ior, partial(evaluate, name, white=job.white))
+        colour = surface.emission.copy()
+        if job.lighting != "image":
+            colour += punctual_light(surface, job.stage.scene.lights, film, plan)
+        return colour, exact
+
+
+def _only(hits: Hits, rows: NDArray[np.bool_] | Int64) -> Hits:
+    return Hits(
+        hits.valid[rows],
+        hits.distance[rows],
+        hits.primitive[rows],
+        hits.triangle[rows],
+        hits.barycentric[rows],
+        hits.is_front[rows],
+    )

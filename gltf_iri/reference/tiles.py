@@ -1,0 +1,80 @@
+"""Blocks of a picture's rows over processes; what comes out does not depend on how many there are."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+from collections.abc import Iterator
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from typing import Final
+
+from gltf_iri.errors import MissingCapabilityError, UsageError
+from gltf_iri.reference.paint import Job, Painter, Tile
+
+__all__ = ["count_tiles", "paint_tiles", "tile_rows"]
+
+# Large enough that numpy does the work, small enough for a progress bar that moves.
+_PIXELS_A_TILE: Final = 4096
+
+# What this process paints and with what; a worker makes its painter when its first tile comes.
+_job: Job | None = None
+_painter: Painter | None = None
+
+
+def count_tiles(size: tuple[int, int]) -> int:
+    """Return how many tiles a picture of this width and height is painted in."""
+    return len(tile_rows(size))
+
+
+def tile_rows(size: tuple[int, int]) -> list[tuple[int, int]]:
+    """Return the first row of each tile and the one past its last, from the top."""
+    width, height = size
+    step = max(1, _PIXELS_A_TILE // max(width, 1))
+    return [(first, min(first + step, height)) for first in range(0, height, step)]
+
+
+def paint_tiles(job: Job, processes: int | None) -> Iterator[tuple[int, Tile]]:
+    """Yield (index, tile) of every tile, in the order in which they are done.
+
+    processes : how many; None for one a processor. One process, or one tile, needs no other than this one.
+
+    Raises UsageError for fewer than one process, what a painter raises, and MissingCapabilityError where a
+    process dies. With more than one, a script needs the usual ``if __name__ == "__main__":`` around its call.
+    """
+    if processes is not None and processes < 1:
+        raise UsageError(f"{processes} processes paint nothing; ask for at least one.")
+    tiles = list(enumerate(tile_rows(job.size)))
+    workers = min(processes or os.cpu_count() or 1, len(tiles))
+    if workers <= 1:
+        painter = Painter(job)
+        for index, rows in tiles:
+            yield index, painter.paint(index, rows)
+        return
+    # A fresh interpreter each: a fork would copy OpenGL's threads and locks in whatever state they are.
+    context = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(workers, context, initializer=_receive, initargs=(job,)) as pool:
+        pending = {pool.submit(_paint, index, rows): index for index, rows in tiles}
+        try:
+            for done in as_completed(pending):
+                yield pending[done], done.result()
+        except BrokenProcessPool as error:
+            raise MissingCapabilityError(
+                f"One of {workers} processes died, most likely for want of memory; ask for fewer of them."
+            ) from error
+        finally:
+            pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _receive(job: Job) -> None:
+    global _job
+    _job = job
+
+
+def _paint(index: int, rows: tuple[int, int]) -> Tile:
+    global _painter
+    if _painter is None:
+        if _job is None:
+            raise UsageError("Tiles are painted by `paint_tiles` only.")
+        _painter = Painter(_job)
+    return _painter.paint(index, rows)
