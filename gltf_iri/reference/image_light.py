@@ -1,0 +1,177 @@
+"""Image light on a surface by Monte-Carlo: ∫ L f |cos θ| dω over the front, unoccluded, for the whole of f.
+
+The rasteriser splits this integral into a prefiltered map and tables; here light, facets and Fresnel stay
+together, direction by direction. Directions are drawn by the environment's brightness, by the facets of base
+and coat, and by the cosine; each weighs as the balance heuristic says (Veach & Guibas 1995, "Optimally
+Combining Sampling Techniques for Monte Carlo Rendering", §3.3): L f |cos θ| / Σ count·density.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import fields
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN, anisotropic_alphas
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.reference.environment import EnvironmentMap
+from gltf_iri.reference.facets import Axes, draw_facet, mirror_density, mirrored
+from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.lobes import evaluate_lobes
+from gltf_iri.reference.low_discrepancy import net, shifted, standard_error
+from gltf_iri.reference.surface import Surface
+
+__all__ = ["estimate", "reflected", "take"]
+
+Float64 = NDArray[np.float64]
+Int64 = NDArray[np.int64]
+
+# Independent estimates whose spread tells the error: seven degrees of freedom.
+_COPIES: Final = 8
+
+# Directions at once: some 200 MB of arrays.
+_CHUNK: Final = 1 << 17
+
+
+def reflected(
+    surface: Surface,
+    plan: MaterialPlan,
+    environment: EnvironmentMap,
+    film: FilmOn,
+    *,
+    samples: int,
+    rng: np.random.Generator,
+) -> tuple[Float64, Float64]:
+    """Return what the surface sends on of the environment, (n, 3), occlusion included, and standard errors.
+
+    Parameters
+    ----------
+    film : on the same surface.
+    samples : directions a point, rounded up so that each way of drawing them gets 8 nets of 2ᵏ points.
+    """
+    estimates = estimate(surface, plan, environment, film, samples=samples, rng=rng, copies=_COPIES)
+    return standard_error(estimates)
+
+
+def estimate(
+    surface: Surface,
+    plan: MaterialPlan,
+    environment: EnvironmentMap,
+    film: FilmOn,
+    *,
+    samples: int,
+    rng: np.random.Generator,
+    copies: int,
+) -> Float64:
+    """Return `copies` independent estimates of `reflected`'s integral, (copies, n, 3), `samples` in all."""
+    count = len(surface.position)
+    estimates = np.zeros((copies, count, 3))
+    if plan.calls_for(Effect.UNLIT) or not count:
+        return estimates
+    techniques = 2 + plan.calls_for(Effect.CLEARCOAT) + _has_wide_lobes(plan)
+    points = net(_power_of_two(samples / (copies * techniques)))
+    step = max(_CHUNK // (len(points) * techniques), 1)
+    for start in range(0, count, step):
+        rows = np.arange(start, min(start + step, count))
+        here = take(surface, rows)
+        for copy in range(copies):
+            sent = _sent(here, plan, environment, film, points, rng)
+            estimates[copy, rows] = here.occlusion[:, None] * sent
+    return estimates
+
+
+def take(surface: Surface, rows: Int64) -> Surface:
+    """Return the points `rows` (k,) of a surface, in that order."""
+    return Surface(**{field.name: getattr(surface, field.name)[rows] for field in fields(Surface)})
+
+
+def _sent(
+    surface: Surface,
+    plan: MaterialPlan,
+    environment: EnvironmentMap,
+    film: FilmOn,
+    points: NDArray[np.uint32],
+    rng: np.random.Generator,
+) -> Float64:
+    """Return one estimate (n, 3), each technique drawing one net of `points` (k, 2) a surface point."""
+    count, per_point = len(surface.position), len(points)
+    rows = np.repeat(np.arange(count), per_point)
+    repeated = take(surface, rows)
+    techniques = list(_techniques(repeated, plan, environment))
+    total = np.zeros((count, 3))
+    for technique in techniques:
+        place = shifted(points, rng, count).reshape(-1, 2)
+        direction = technique.sample(place)
+        density = per_point * np.sum([each.density(direction) for each in techniques], axis=0)
+        is_lit = (np.sum(repeated.normal * direction, axis=1) > 0.0) & (density > 0.0)
+        if plan.calls_for(Effect.CLEARCOAT):
+            is_lit |= np.sum(repeated.clearcoat_normal * direction, axis=1) > 0.0
+        lit = np.flatnonzero(is_lit)
+        here = take(repeated, lit)
+        towards_light = direction[lit]
+        f = evaluate_lobes(here, towards_light, FilmOn(here, film.film_ior, film.method), plan)
+        value = f * environment.radiance(towards_light) / density[lit, None]
+        for channel in range(3):
+            total[:, channel] += np.bincount(rows[lit], value[:, channel], count)
+    return total
+
+
+class _Sky:
+    def __init__(self, environment: EnvironmentMap) -> None:
+        self.sample = environment.sample
+        self.density = environment.density
+
+
+class _Facets:
+    def __init__(self, axes: Axes, view: Float64, alpha_t: Float64, alpha_b: Float64) -> None:
+        local = axes.to_local(view)
+        # Interpolated normals lean past the silhouette; facets are drawn for a viewer just above the horizon.
+        local[:, 2] = np.maximum(local[:, 2], N_DOT_V_MIN)
+        self._axes, self._widths = axes, (alpha_t, alpha_b)
+        self._view = local / np.linalg.norm(local, axis=1, keepdims=True)
+
+    def sample(self, place: Float64) -> Float64:
+        return self._axes.to_world(mirrored(self._view, draw_facet(self._view, *self._widths, place)))
+
+    def density(self, direction: Float64) -> Float64:
+        return mirror_density(self._view, self._axes.to_local(direction), *self._widths)
+
+
+class _Cosine:
+    def __init__(self, axes: Axes) -> None:
+        self._axes = axes
+
+    def sample(self, place: Float64) -> Float64:
+        # Even on the disc below, lifted to the hemisphere (Malley's method).
+        radius, turn = np.sqrt(place[:, 0]), 2.0 * np.pi * place[:, 1]
+        height = np.sqrt(1.0 - place[:, 0])
+        return self._axes.to_world(np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height]))
+
+    def density(self, direction: Float64) -> Float64:
+        return np.asarray(np.maximum(np.sum(direction * self._axes.normal, axis=1), 0.0) / np.pi)
+
+
+def _techniques(
+    surface: Surface, plan: MaterialPlan, environment: EnvironmentMap
+) -> Iterator[_Sky | _Facets | _Cosine]:
+    yield _Sky(environment)
+    axes = Axes.around(surface.normal, surface.anisotropy_tangent)
+    yield _Facets(axes, surface.view, *anisotropic_alphas(surface.alpha, surface.anisotropy_strength))
+    if plan.calls_for(Effect.CLEARCOAT):
+        alpha = np.maximum(surface.clearcoat_roughness**2, ALPHA_MIN)
+        yield _Facets(Axes.around(surface.clearcoat_normal), surface.view, alpha, alpha)
+    if _has_wide_lobes(plan):
+        yield _Cosine(axes)
+
+
+def _has_wide_lobes(plan: MaterialPlan) -> bool:
+    return plan.calls_for(Effect.DIELECTRIC) or plan.calls_for(Effect.SHEEN)
+
+
+def _power_of_two(number: float) -> int:
+    """Return the least power of two that is at least `number`, and at least 1."""
+    return 1 << max(int(np.ceil(np.log2(max(number, 1.0)))), 0)
