@@ -24,6 +24,7 @@ __all__ = [
     "iridescent_dielectric_layer",
     "iridescent_dielectric_layer_specular",
     "rgb_mix",
+    "transmitted_share",
 ]
 
 Float64 = NDArray[np.float64]
@@ -59,6 +60,16 @@ def rgb_mix(reflectance: ArrayLike) -> Layer:
     """
     colour = np.asarray(reflectance, np.float64)
     return Layer(colour, 1.0 - np.max(colour, axis=-1))
+
+
+def transmitted_share(reflectance: ArrayLike) -> Float64:
+    """Share T (..., 3) of the light that passes a surface of reflectance R (..., 3): clamp(1 − R, 0, 1).
+
+    What is reflected is not transmitted, colour by colour, so R + T ≤ 1 in every channel; the diffuse base
+    keeps `rgb_mix`'s one weight for all. A film's text may give R outside [0, 1], where
+    1 − R would gain energy.
+    """
+    return np.clip(1.0 - np.asarray(reflectance, np.float64), 0.0, 1.0)
 
 
 def iridescent_conductor_layer(strength: ArrayLike, plain: ArrayLike, film: ArrayLike) -> Float64:

@@ -12,7 +12,15 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["ALPHA_MIN", "N_DOT_V_MIN", "d_ggx", "v_smith_ggx_correlated"]
+__all__ = [
+    "ALPHA_MIN",
+    "N_DOT_V_MIN",
+    "anisotropic_alphas",
+    "d_ggx",
+    "d_ggx_anisotropic",
+    "v_smith_ggx_anisotropic",
+    "v_smith_ggx_correlated",
+]
 
 Float64 = NDArray[np.float64]
 
@@ -55,4 +63,61 @@ def v_smith_ggx_correlated(n_dot_l: ArrayLike, n_dot_v: ArrayLike, alpha: ArrayL
     a2 = np.asarray(alpha, np.float64) ** 2
     light_term = light * np.sqrt(a2 + (1.0 - a2) * view * view)
     view_term = view * np.sqrt(a2 + (1.0 - a2) * light * light)
+    return np.asarray(0.5 / (light_term + view_term))
+
+
+def anisotropic_alphas(alpha: ArrayLike, strength: ArrayLike) -> tuple[Float64, Float64]:
+    """α_t = mix(α, 1, strength²) along the tangent and α_b = α across it, KHR_materials_anisotropy."""
+    a, share = np.asarray(alpha, np.float64), np.asarray(strength, np.float64) ** 2
+    return np.asarray(a * (1.0 - share) + share), np.asarray(a + 0.0 * share)
+
+
+def d_ggx_anisotropic(
+    t_dot_h: ArrayLike, b_dot_h: ArrayLike, alpha_t: ArrayLike, alpha_b: ArrayLike
+) -> Float64:
+    """Density of facets whose normal is H, per steradian, of different roughness along T and B.
+
+    D = 1 / (π α_t α_b ((T·H)²/α_t² + (B·H)²/α_b² + (N·H)²)²), Burley 2012, "Physically Based Shading at
+    Disney", Eq. 13, written as α_t α_b / (π (…)²) with (N·H)² = 1 − (T·H)² − (B·H)²: at α_t = α_b it is
+    `d_ggx`.
+
+    Parameters
+    ----------
+    t_dot_h, b_dot_h : components of H along tangent and bitangent, in [−1, 1]; H on the lit side.
+    alpha_t, alpha_b : roughness along the tangent and across it, in (0, 1].
+    """
+    along, across = np.asarray(t_dot_h, np.float64) ** 2, np.asarray(b_dot_h, np.float64) ** 2
+    a_t, a_b = np.asarray(alpha_t, np.float64), np.asarray(alpha_b, np.float64)
+    area = a_t * a_b
+    spread = along * (a_b / a_t) + across * (a_t / a_b) + area * (1.0 - (along + across))
+    return np.asarray(area / (np.pi * spread * spread))
+
+
+def v_smith_ggx_anisotropic(
+    n_dot_l: ArrayLike,
+    n_dot_v: ArrayLike,
+    t_dot_l: ArrayLike,
+    b_dot_l: ArrayLike,
+    t_dot_v: ArrayLike,
+    b_dot_v: ArrayLike,
+    alpha_t: ArrayLike,
+    alpha_b: ArrayLike,
+) -> Float64:
+    """Visibility G / (4 N·L N·V) of facets of different roughness along T and B, height-correlated.
+
+    V = ½ / (N·L √((α_t T·V)² + (α_b B·V)² + (N·V)²) + N·V √((α_t T·L)² + (α_b B·L)² + (N·L)²)), Heitz 2014
+    Eq. 99 with Eq. 86's Λ; at α_t = α_b it is `v_smith_ggx_correlated`.
+
+    Parameters
+    ----------
+    n_dot_l, n_dot_v : cosines of the light's and the viewer's angle, in [0, 1], not both 0.
+    t_dot_l, b_dot_l, t_dot_v, b_dot_v : components of L and V along tangent and bitangent.
+    alpha_t, alpha_b : roughness along the tangent and across it, in (0, 1].
+    """
+    light, view = np.asarray(n_dot_l, np.float64), np.asarray(n_dot_v, np.float64)
+    a_t, a_b = np.asarray(alpha_t, np.float64), np.asarray(alpha_b, np.float64)
+    along_l, across_l = a_t * np.asarray(t_dot_l, np.float64), a_b * np.asarray(b_dot_l, np.float64)
+    along_v, across_v = a_t * np.asarray(t_dot_v, np.float64), a_b * np.asarray(b_dot_v, np.float64)
+    light_term = light * np.sqrt(along_v * along_v + across_v * across_v + view * view)
+    view_term = view * np.sqrt(along_l * along_l + across_l * across_l + light * light)
     return np.asarray(0.5 / (light_term + view_term))

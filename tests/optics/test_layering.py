@@ -14,6 +14,7 @@ from gltf_iri.optics.layering import (
     iridescent_dielectric_layer,
     iridescent_dielectric_layer_specular,
     rgb_mix,
+    transmitted_share,
 )
 
 share = st.floats(0.0, 1.0)
@@ -66,6 +67,16 @@ def test_layers_never_add_energy(strength, weight, plain, film) -> None:
     ):
         assert np.all(layer.specular + layer.base_weight <= 1.0 + 1e-15)
         assert layer.base_weight >= -1e-15
+
+
+@given(reflectance=st.tuples(*[st.floats(-0.2, 1.3)] * 3).map(np.array))
+def test_what_is_reflected_is_not_transmitted(reflectance) -> None:
+    passed = transmitted_share(reflectance)
+    assert np.all((passed >= 0.0) & (passed <= 1.0))
+    inside = (reflectance >= 0.0) & (reflectance <= 1.0)
+    np.testing.assert_array_equal((passed + reflectance)[inside], ((1.0 - reflectance) + reflectance)[inside])
+    assert np.all(passed[reflectance > 1.0] == 0.0)
+    assert np.all(passed[reflectance < 0.0] == 1.0)
 
 
 @given(fresnel=share)
