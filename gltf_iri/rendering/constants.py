@@ -8,6 +8,7 @@ from gltf_iri.colour.sensitivity import GAUSSIANS, SENSITIVITY_WHITE, Gaussian
 from gltf_iri.colour.spaces import XYZ_TO_REC709
 from gltf_iri.evaluation import khr, khr_guarded
 from gltf_iri.optics import microfacet
+from gltf_iri.rendering import environment_light
 from gltf_iri.scene import light
 
 __all__ = ["constants_glsl", "film_constants_glsl", "glsl_float"]
@@ -25,6 +26,12 @@ def constants_glsl() -> str:
         [
             "// gltf_iri/scene/light.py",
             _scalar("LIGHT_DISTANCE_MIN_M", light.LIGHT_DISTANCE_MIN_M),
+        ],
+        [
+            "// gltf_iri/rendering/environment_light.py",
+            f"const int LAYERS_PER_LEVEL = {environment_light.LAYERS_PER_LEVEL};",
+            f"const int ROUGHNESS_LAYERS = {environment_light.ROUGHNESS_LAYERS};",
+            _scalar("LAYER_ROUGHNESS_MIN", environment_light.LAYER_ROUGHNESS_MIN),
         ],
     )
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gltf_iri.rendering.environment_light import EnvironmentLight, compute_dfg_table, prepare_environment
+from gltf_iri.rendering.environment_light import EnvironmentLight, prepare_environment
+from gltf_iri.rendering.lobe_tables import compute_dfg_table
 from gltf_iri.scene.model import Environment
 
 if TYPE_CHECKING:
@@ -34,8 +35,9 @@ class ImageLightStore:
         light = self._environments[id(environment)][1]
         return {
             "u_environment": light.sharp,
-            "u_environment_smooth": light.smooth,
-            "u_environment_rough": light.rough,
+            "u_environment_rest": light.rest,
+            "u_environment_lamps": light.lamps,
+            "u_environment_layers": light.layers,
             "u_dfg": self._dfg,
         }
 

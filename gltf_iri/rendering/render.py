@@ -18,7 +18,6 @@ from gltf_iri.planning.permutation import permutation, plan_scene_effects, primi
 from gltf_iri.rendering.background import Background
 from gltf_iri.rendering.context import renderer_name
 from gltf_iri.rendering.draw import Draw, draw_primitives
-from gltf_iri.rendering.environment_light import LAYER_COUNT, SMOOTH_LAYER_COUNT
 from gltf_iri.rendering.frame import INPUT_TARGETS, Frame
 from gltf_iri.rendering.geometry import GeometryStore, placement_uniforms
 from gltf_iri.rendering.image_light import ImageLightStore
@@ -95,7 +94,6 @@ class Renderer:
                 light |= self._image_lights.textures(environment)
             shared = view_uniforms(camera, size)
             shared["u_light_count"] = len(scene.lights)
-            shared |= {"u_layer_count": LAYER_COUNT, "u_smooth_layer_count": SMOOTH_LAYER_COUNT}
             draws = []
             for primitive in scene.primitives:
                 number, plan, material = _material_of(primitive, plans, model)

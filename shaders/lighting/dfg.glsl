@@ -1,6 +1,8 @@
 // Where the DFG table keeps (N·V, perceptual roughness): texel centres from edge to edge, and √(N·V) across, for
 // the table bends most at grazing angles.
 
+uniform sampler2D u_dfg;  // bound wherever a surface is shaded, also without an environment
+
 vec2 dfg_arguments(vec2 pixel, vec2 size) {
     vec2 x = (pixel - 0.5) / (size - 1.0);
     return vec2(x.x * x.x, x.y);

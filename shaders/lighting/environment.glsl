@@ -1,39 +1,51 @@
-// The environment prefiltered: the sharp map, layers for roughness ⅛ … 1, irradiance, and the DFG table.
-// Made by shaders/pass/{prefilter,prefilter_rough,dfg}.frag.
+// The environment: the sharp map, the same without its lamps, that one prefiltered, and the lamps by formula.
+// Made by gltf_iri/rendering/environment_light.py with shaders/pass/prefilter*.frag.
 
 #include "common/math.glsl"
+#include "generated/constants.glsl"
 #include "lighting/dfg.glsl"
 #include "lighting/equirect.glsl"
+#include "lighting/lamps.glsl"
 
 uniform sampler2D u_environment;
-uniform sampler2D u_environment_smooth;  // layers of low roughness
-uniform sampler2D u_environment_rough;   // layers of high roughness, then irradiance
-uniform sampler2D u_dfg;
-uniform int u_smooth_layer_count;
-uniform int u_layer_count;
+uniform sampler2D u_environment_rest;
+uniform sampler2D u_environment_layers;
 
+// A layer of roughness; the one behind the last is irradiance.
 vec3 environment_layer(vec2 uv, int layer) {
-    if (layer < u_smooth_layer_count) {
-        return sample_stack(u_environment_smooth, u_smooth_layer_count, layer, uv).rgb;
-    }
-    int rough_count = u_layer_count - u_smooth_layer_count + 1;
-    return sample_stack(u_environment_rough, rough_count, layer - u_smooth_layer_count, uv).rgb;
+    int level = layer / LAYERS_PER_LEVEL;
+    return sample_stack(u_environment_layers, LAYERS_PER_LEVEL, layer - level * LAYERS_PER_LEVEL, level, uv).rgb;
 }
 
 // Radiance from `direction` as a lobe of the given roughness sees it. `spread_rad`: angle between the directions of
 // neighbouring pixels, below which the sharp map must not be sampled.
 vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spread_rad) {
     vec2 uv = equirect_from_direction(direction);
-    float layer = perceptual_roughness * float(u_layer_count) - 1.0;
-    vec3 rougher = environment_layer(uv, max(int(ceil(layer)), 0));
-    if (layer >= 0.0) {
-        return mix(environment_layer(uv, int(layer)), rougher, fract(layer));
+    float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
+    float texel_rad = PI / float(textureSize(u_environment, 0).y);
+    float level = log2(max(spread_rad / texel_rad, 1.0));
+
+    vec3 rest;
+    float layer = 2.0 * log2(max(perceptual_roughness / LAYER_ROUGHNESS_MIN, 1.0));
+    if (perceptual_roughness >= LAYER_ROUGHNESS_MIN) {
+        rest = mix(environment_layer(uv, int(layer)), environment_layer(uv, int(ceil(layer))), fract(layer));
+    } else {
+        rest = mix(textureLod(u_environment_rest, uv, level).rgb, environment_layer(uv, 0),
+                   perceptual_roughness / LAYER_ROUGHNESS_MIN);
     }
-    float level = log2(max(spread_rad * float(textureSize(u_environment, 0).y) / PI, 1.0));
-    return mix(textureLod(u_environment, uv, level).rgb, rougher, layer + 1.0);
+    // A lobe narrower than a texel shows the lamp as the map has it.
+    float by_formula = clamp((alpha - ALPHA_MIN) / (0.25 * texel_rad), 0.0, 1.0);
+    vec3 lamps = vec3(0.0);
+    if (by_formula < 1.0) {
+        lamps = textureLod(u_environment, uv, level).rgb - textureLod(u_environment_rest, uv, level).rgb;
+    }
+    if (by_formula > 0.0) {
+        lamps = mix(lamps, lamp_radiance(direction, alpha, spread_rad), by_formula);
+    }
+    return rest + lamps;
 }
 
 // E/π: a white environment gives 1.
 vec3 environment_irradiance(vec3 normal) {
-    return environment_layer(equirect_from_direction(normal), u_layer_count);
+    return environment_layer(equirect_from_direction(normal), ROUGHNESS_LAYERS) + lamp_irradiance(normal);
 }

@@ -22,8 +22,8 @@ vec3 direction_of_texel(vec2 pixel, vec2 size) {
     return direction_from_equirect(vec2(pixel.x / size.x, (mod(pixel.y, size.y) - 0.5) / (size.y - 1.0)));
 }
 
-vec4 sample_stack(sampler2D stack, int count, int index, vec2 uv) {
-    float height = float(textureSize(stack, 0).y / count);
+vec4 sample_stack(sampler2D stack, int count, int index, int level, vec2 uv) {
+    float height = float(textureSize(stack, level).y / count);
     float row = uv.y * (height - 1.0) + 0.5 + float(index) * height;
-    return textureLod(stack, vec2(uv.x, row / (height * float(count))), 0.0);
+    return textureLod(stack, vec2(uv.x, row / (height * float(count))), float(level));
 }

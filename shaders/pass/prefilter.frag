@@ -27,7 +27,7 @@ void main() {
             vec3 direction = frame * ray.xyz;
             // Towards the poles texels shrink; the floor keeps the level finite where they vanish.
             float shrink = max(length(direction.xz), 1.0 / size.y);
-            float level = max(0.5 * log2(ray.w / (texel_solid_angle * shrink)), 0.0);
+            float level = max(0.5 * log2(ray.w / texel_solid_angle), 0.0);
             sum += ray.z * textureLod(u_environment, equirect_from_direction(direction), level).rgb;
             weight += ray.z;
         }

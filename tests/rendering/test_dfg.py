@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from gltf_iri.optics.microfacet import ALPHA_MIN, v_smith_ggx_correlated
-from gltf_iri.rendering.environment_light import compute_dfg_table
+from gltf_iri.rendering.lobe_tables import compute_dfg_table
 
 
 def integrated(n_dot_v, roughness):

@@ -9,7 +9,7 @@ import pytest
 
 from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.rendering.environment_levels import environment_levels
-from gltf_iri.rendering.environment_light import LAYER_COUNT, SMOOTH_LAYER_COUNT, prepare_environment
+from gltf_iri.rendering.environment_light import LAYERS_PER_LEVEL, ROUGHNESS_LAYERS, prepare_environment
 from gltf_iri.scene.model import Environment
 
 AXIS = np.array([0.48, 0.6, -0.64])
@@ -30,12 +30,6 @@ def slanted_sky():
     return Environment("slanted", np.repeat(radiance[..., None], 3, axis=-1).astype(np.float32))
 
 
-def texels(texture):
-    return (
-        np.frombuffer(texture.read(), np.float32).reshape(*texture.size[::-1], -1)[..., 0].astype(np.float64)
-    )
-
-
 @pytest.fixture
 def prepared(gl_context):
     light = prepare_environment(gl_context, slanted_sky())
@@ -43,31 +37,33 @@ def prepared(gl_context):
     light.release()
 
 
-def smooth_layers(prepared):
-    return texels(prepared.smooth).reshape(SMOOTH_LAYER_COUNT, -1, prepared.smooth.size[0])
-
-
-def rough_layers(prepared):
-    """The layers of high roughness, and last the irradiance."""
-    return texels(prepared.rough).reshape(LAYER_COUNT - SMOOTH_LAYER_COUNT + 1, -1, prepared.rough.size[0])
+def layers(prepared):
+    """Every layer of roughness from the smoothest on, and last irradiance; red alone."""
+    width, height = prepared.layers.size
+    found = []
+    for number in range(ROUGHNESS_LAYERS + 1):
+        level, index = divmod(number, LAYERS_PER_LEVEL)
+        stack = np.frombuffer(prepared.layers.read(level=level), np.float32)
+        stack = stack.reshape(LAYERS_PER_LEVEL, (height >> level) // LAYERS_PER_LEVEL, width >> level, 4)
+        found.append(stack[index, ..., 0].astype(np.float64))
+    return found
 
 
 def test_irradiance_of_a_slanted_sky_is_its_cosine_integral(prepared):
-    irradiance = rough_layers(prepared)[-1]
+    irradiance = layers(prepared)[-1]
     expected = 1.0 + 2.0 / 3.0 * (directions(*irradiance.shape, pole_to_pole=True) @ AXIS)
     assert np.abs(irradiance - expected).max() <= 2e-3
 
 
 def test_every_layer_blurs_alike_in_all_directions_seam_and_poles_included(prepared):
-    for layer in (*smooth_layers(prepared), *rough_layers(prepared)):
+    for layer in layers(prepared):
         slant = directions(*layer.shape, pole_to_pole=True) @ AXIS
         shrink = np.sum((layer - 1.0) * slant) / np.sum(slant * slant)
         assert np.abs(layer - 1.0 - shrink * slant).max() <= 0.01
 
 
 def test_rougher_layers_blur_more(prepared):
-    layers = (*smooth_layers(prepared), *rough_layers(prepared)[:-1])
-    assert np.all(np.diff([np.ptp(layer) for layer in layers]) < 0.0)
+    assert np.all(np.diff([np.ptp(layer) for layer in layers(prepared)[:-1]]) < 0.0)
 
 
 @pytest.mark.parametrize("up", [1.0, -1.0])

@@ -1,0 +1,62 @@
+// Small, bright lights of the environment, each lit by formula. Made by gltf_iri/rendering/environment_lamps.py.
+
+#include "optics/microfacet.glsl"
+
+// A column a lamp: (direction, mean squared radius in rad²), (radiance · steradians).
+uniform sampler2D u_environment_lamps;
+
+const float LAMP_ALPHA_MAX = 0.995;  // at 1 the norm below is 0/0; the lobe hardly changes in between
+
+// ∫ D (N·L) dω over the directions of light for N = V: 4/b (1 − ln(1 + x)/x), b = 1 − α², x = b/2α².
+float lobe_norm(float alpha) {
+    float a2 = sq(alpha);
+    float b = 1.0 - a2;
+    float x = b / (2.0 * a2);
+    return 4.0 / b * (1.0 - log(1.0 + x) / x);
+}
+
+// D (N·L) / ∫ D (N·L) dω, N = V, of a small disc of light with the mean squared radius `size_squared`.
+float disc_lobe(vec3 normal, vec3 disc, float size_squared, float alpha) {
+    // With N = V, H is halfway to L: |N×H|² = (1 − N·L) / 2 = |N − L|² / 4, which does not cancel.
+    vec3 apart = normal - disc;
+    float apart_squared = dot(apart, apart);
+    // About as wide as the convolution of disc and lobe: 0.5 is right at its centre, less further out.
+    float widened = min(sqrt(sq(alpha) + 0.45 * size_squared), LAMP_ALPHA_MAX);
+    return d_ggx(0.25 * apart_squared, widened) * max(1.0 - 0.5 * apart_squared, 0.0) / lobe_norm(widened);
+}
+
+// What prefiltering would give for the lamps alone.
+vec3 lamp_radiance(vec3 direction, float alpha, float spread_rad) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < textureSize(u_environment_lamps, 0).x; ++i) {
+        vec4 place = texelFetch(u_environment_lamps, ivec2(i, 0), 0);
+        float size_squared = place.w + sq(spread_rad) / 6.0;
+        float lobe;
+        if (sq(alpha) > 4.0 * size_squared) {
+            lobe = disc_lobe(direction, place.xyz, size_squared, alpha);
+        } else {
+            // A lobe narrower than the lamp: seven discs, one in the middle and six around it.
+            lobe = disc_lobe(direction, place.xyz, size_squared / 7.0, alpha);
+            vec3 across = normalize(cross(place.xyz, abs(place.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
+            vec3 along = cross(place.xyz, across);
+            for (int j = 0; j < 6; ++j) {
+                float turn = float(j) * PI / 3.0;
+                vec3 off = sqrt(size_squared) * (cos(turn) * across + sin(turn) * along);
+                lobe += disc_lobe(direction, normalize(place.xyz + off), size_squared / 7.0, alpha);
+            }
+            lobe /= 7.0;
+        }
+        sum += lobe * texelFetch(u_environment_lamps, ivec2(i, 1), 0).rgb;
+    }
+    return sum;
+}
+
+// E/π of the lamps alone.
+vec3 lamp_irradiance(vec3 normal) {
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < textureSize(u_environment_lamps, 0).x; ++i) {
+        vec4 place = texelFetch(u_environment_lamps, ivec2(i, 0), 0);
+        sum += max(dot(normal, place.xyz), 0.0) * texelFetch(u_environment_lamps, ivec2(i, 1), 0).rgb;
+    }
+    return sum / PI;
+}
