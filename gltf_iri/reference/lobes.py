@@ -1,7 +1,7 @@
 """How a surface sends light on: its lobes, mixed and layered, for light from one direction a point.
 
-The one statement in Python of what shaders/lighting/lobes.glsl does. Sources: glTF 2.0 Appendix B;
-KHR_materials_iridescence, Implementation Notes; KHR_materials_specular; KHR_materials_transmission.
+The one statement in Python of what shaders/lighting/lobes.glsl does. Sources: glTF 2.0 Appendix B; the
+texts of KHR_materials_iridescence, _specular, _transmission, _anisotropy, _sheen and _clearcoat.
 """
 
 from __future__ import annotations
@@ -17,11 +17,19 @@ from gltf_iri.optics.layering import (
     iridescent_conductor_layer,
     iridescent_dielectric_layer,
     iridescent_dielectric_layer_specular,
+    transmitted_share,
 )
-from gltf_iri.optics.microfacet import d_ggx, v_smith_ggx_correlated
+from gltf_iri.optics.microfacet import (
+    anisotropic_alphas,
+    d_ggx,
+    d_ggx_anisotropic,
+    v_smith_ggx_anisotropic,
+    v_smith_ggx_correlated,
+)
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.layers import clearcoat_lobe, clearcoat_reflectance, fibre_lobe, fibre_passage
 from gltf_iri.reference.surface import Surface
 
 __all__ = ["Reflectances", "evaluate_lobes", "film_reflectances", "layered_reflectances"]
@@ -41,45 +49,21 @@ class Reflectances:
 def evaluate_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan: MaterialPlan) -> Float64:
     """Return f·|cosθ|, (n, 3): what the surface sends towards the viewer per illuminance from one direction.
 
-    In front, base_weight·c/π + F·V·D, film and Schlick at V·H (glTF 2.0 Appendix B.2). Behind a wall without
-    volume, transmitted light: the lobe of the light mirrored to the front, (1 − m)·t·c·T·V·D, with T = 1 − R
-    of each channel. Nothing passes through a volume here: bent light of a point source would be a caustic.
+    The base, under the fibres of a sheen, under a clearcoat. Emission is not in it.
 
     Parameters
     ----------
     towards_light : (n, 3), unit.
     film : on the same surface.
     """
-    cosine = np.sum(surface.normal * towards_light, axis=1)
-    is_thin = plan.calls_for(Effect.TRANSMISSION) and not plan.calls_for(Effect.VOLUME)
-    is_through = (cosine < 0.0) & (surface.transmission > 0.0) & is_thin
-    is_lit = (cosine > 0.0) | is_through
-    # Light that comes through is bent nowhere: the facets see it as if it came mirrored, from the front.
-    mirrored = towards_light - 2.0 * np.minimum(cosine, 0.0)[:, None] * surface.normal
-    n_dot_l = np.clip(np.abs(cosine), 0.0, 1.0)
-    half = surface.view + mirrored
-    length = np.linalg.norm(half, axis=1, keepdims=True)
-    # Looking straight into a light there is no half vector, and no facet that could mirror it.
-    half = half / np.where(length > 0.0, length, 1.0)
-    v_dot_h = np.clip(np.sum(surface.view * half, axis=1), 0.0, 1.0)
-    n_cross_h = np.cross(surface.normal, half)
-    facets = d_ggx(np.sum(n_cross_h * n_cross_h, axis=1), surface.alpha) * v_smith_ggx_correlated(
-        n_dot_l, surface.n_dot_v, surface.alpha
-    )
-    c = v_dot_h[:, None]
-    layers = layered_reflectances(
-        surface,
-        plan,
-        (f_schlick(surface.dielectric_f0, c), f_schlick(surface.base_color, c)),
-        film_reflectances(surface, plan, film, v_dot_h, is_lit),
-    )
-    lobe = facets[:, None]
-    m, t = surface.metallic[:, None], surface.transmission[:, None]
-    diffuse = layers.dielectric.base_weight[:, None] * surface.base_color / np.pi
-    in_front = (1.0 - m) * ((1.0 - t) * diffuse + layers.dielectric.specular * lobe) + m * layers.metal * lobe
-    through = (1.0 - m) * t * surface.base_color * np.clip(1.0 - layers.dielectric.specular, 0.0, 1.0) * lobe
-    sent = np.where(is_through[:, None], through, in_front)
-    return np.asarray(np.where((is_lit & (length[:, 0] > 0.0))[:, None], n_dot_l[:, None] * sent, 0.0))
+    sent = _base_lobes(surface, towards_light, film, plan)
+    if plan.calls_for(Effect.SHEEN):
+        n_dot_l = np.clip(np.abs(np.sum(surface.normal * towards_light, axis=1)), 0.0, 1.0)
+        sent = fibre_lobe(surface, towards_light) + fibre_passage(surface, n_dot_l)[:, None] * sent
+    if plan.calls_for(Effect.CLEARCOAT):
+        passage = 1.0 - clearcoat_reflectance(surface)
+        sent = passage[:, None] * sent + clearcoat_lobe(surface, towards_light)[:, None]
+    return sent
 
 
 def film_reflectances(
@@ -104,3 +88,60 @@ def layered_reflectances(
     else:
         layer = iridescent_dielectric_layer(strength, plain[0], filmed[0])
     return Reflectances(layer, iridescent_conductor_layer(strength, plain[1], filmed[1]))
+
+
+def _base_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan: MaterialPlan) -> Float64:
+    """Return f·|cosθ| of metal and dielectric.
+
+    In front, base_weight·c/π + F·V·D, film and Schlick at V·H (glTF 2.0 Appendix B.2). Behind a wall without
+    volume, transmitted light: the lobe of the light mirrored to the front, (1 − m)·t·c·T·V·D, with T = 1 − R
+    of each channel. Nothing passes through a volume here: bent light of a point source would be a caustic.
+    """
+    cosine = np.sum(surface.normal * towards_light, axis=1)
+    is_thin = plan.calls_for(Effect.TRANSMISSION) and not plan.calls_for(Effect.VOLUME)
+    is_through = (cosine < 0.0) & (surface.transmission > 0.0) & is_thin
+    # A thin wall bends nothing: its facets see light from behind as if it came mirrored, from the front.
+    light = towards_light - 2.0 * np.minimum(cosine, 0.0)[:, None] * surface.normal
+    n_dot_l = np.clip(np.abs(cosine), 0.0, 1.0)
+    half = surface.view + light
+    length = np.linalg.norm(half, axis=1, keepdims=True)
+    # Looking straight into a light there is no half vector, and no facet that could mirror it.
+    is_lit = ((cosine > 0.0) | is_through) & (length[:, 0] > 0.0)
+    half = half / np.where(length > 0.0, length, 1.0)
+    v_dot_h = np.clip(np.sum(surface.view * half, axis=1), 0.0, 1.0)
+    lobe = _facets(surface, plan, light, half, n_dot_l)[:, None]
+    c = v_dot_h[:, None]
+    layers = layered_reflectances(
+        surface,
+        plan,
+        (f_schlick(surface.dielectric_f0, c), f_schlick(surface.base_color, c)),
+        film_reflectances(surface, plan, film, v_dot_h, is_lit),
+    )
+    m, t = surface.metallic[:, None], surface.transmission[:, None]
+    diffuse = layers.dielectric.base_weight[:, None] * surface.base_color / np.pi
+    in_front = (1.0 - m) * ((1.0 - t) * diffuse + layers.dielectric.specular * lobe) + m * layers.metal * lobe
+    through = (1.0 - m) * t * surface.base_color * transmitted_share(layers.dielectric.specular) * lobe
+    sent = np.where(is_through[:, None], through, in_front)
+    return np.asarray(np.where(is_lit[:, None], n_dot_l[:, None] * sent, 0.0))
+
+
+def _facets(surface: Surface, plan: MaterialPlan, light: Float64, half: Float64, n_dot_l: Float64) -> Float64:
+    """Return D·V, (n,), for light (n, 3) from the front."""
+    normal, view = surface.normal, surface.view
+    n_cross_h = np.cross(normal, half)
+    even = d_ggx(np.sum(n_cross_h * n_cross_h, axis=1), surface.alpha) * v_smith_ggx_correlated(
+        n_dot_l, surface.n_dot_v, surface.alpha
+    )
+    if not plan.calls_for(Effect.ANISOTROPY):
+        return even
+    tangent, bitangent = surface.anisotropy_tangent, np.cross(normal, surface.anisotropy_tangent)
+    widths = anisotropic_alphas(surface.alpha, surface.anisotropy_strength)
+
+    def along(vectors: Float64) -> tuple[Float64, Float64]:
+        return np.sum(tangent * vectors, axis=1), np.sum(bitangent * vectors, axis=1)
+
+    drawn_out = d_ggx_anisotropic(*along(half), *widths) * v_smith_ggx_anisotropic(
+        n_dot_l, surface.n_dot_v, *along(light), *along(view), *widths
+    )
+    # Without a tangent there is no direction to draw the highlight out in.
+    return np.where(np.any(tangent != 0.0, axis=1), drawn_out, even)

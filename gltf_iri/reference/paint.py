@@ -13,11 +13,13 @@ from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.planning.effects import Effect
 from gltf_iri.reference.cutout import coverage
+from gltf_iri.reference.environment import EnvironmentMap
 from gltf_iri.reference.film import FilmOn
 from gltf_iri.reference.gather import gather_surface
+from gltf_iri.reference.image_light import reflected
 from gltf_iri.reference.points import gather_points
 from gltf_iri.reference.rays import camera_rays
-from gltf_iri.reference.shade import punctual_light
+from gltf_iri.reference.shade import emitted, punctual_light
 from gltf_iri.reference.stage import Stage
 from gltf_iri.reference.surface import Surface
 from gltf_iri.reference.tracer import Hits, Tracer
@@ -77,6 +79,10 @@ class Painter:
         blended = [plan.calls_for(Effect.ALPHA_BLEND) for plan in job.stage.plans]
         self._is_blended = np.asarray(blended) & job.is_blending
         self._slots = np.asarray(job.stage.slots)
+
+        self._environment: EnvironmentMap | None = None
+        if job.environment is not None and job.lighting != "punctual":
+            self._environment = EnvironmentMap(job.environment)
 
     def paint(self, index: int, rows: tuple[int, int]) -> Tile:
         """Return tile number `index`, which covers `rows` (first, one past the last)."""
@@ -139,10 +145,15 @@ class Painter:
         film_ior = (material.iridescence or Iridescence()).film_ior
         name = job.film_method or plan.method or "spectral"
         film = FilmOn(surface, film_ior, partial(evaluate, name, white=job.white))
-        colour = surface.emission.copy()
+        colour = emitted(surface, plan)
         if job.lighting != "image":
-            colour += punctual_light(surface, job.stage.scene.lights, film, plan)
-        return colour, exact
+            colour = colour + punctual_light(surface, job.stage.scene.lights, film, plan)
+        if self._environment is None:
+            return colour, exact
+        reflection, error = reflected(
+            surface, plan, self._environment, film, samples=job.image_samples, rng=rng
+        )
+        return colour + reflection, error
 
 
 def _only(hits: Hits, rows: NDArray[np.bool_] | Int64) -> Hits:

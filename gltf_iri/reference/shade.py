@@ -10,14 +10,16 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.layers import clearcoat_reflectance
 from gltf_iri.reference.lobes import evaluate_lobes
 from gltf_iri.reference.surface import Surface
 from gltf_iri.scene.illuminance import arriving
 from gltf_iri.scene.model import Light
 
-__all__ = ["punctual_light"]
+__all__ = ["emitted", "punctual_light"]
 
 Float64 = NDArray[np.float64]
 
@@ -29,3 +31,10 @@ def punctual_light(surface: Surface, lights: Sequence[Light], film: FilmOn, plan
         towards_light, illuminance = arriving(light, surface.position)
         sent += illuminance * evaluate_lobes(surface, towards_light, film, plan)
     return sent
+
+
+def emitted(surface: Surface, plan: MaterialPlan) -> Float64:
+    """Return the radiance (n, 3) that the surface sends by itself: from under the coat, past any fibres."""
+    if not plan.calls_for(Effect.CLEARCOAT):
+        return surface.emission
+    return np.asarray((1.0 - clearcoat_reflectance(surface))[:, None] * surface.emission)
