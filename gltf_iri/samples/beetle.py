@@ -17,7 +17,7 @@ __all__ = ["build"]
 HALF_AXES_M = (0.007, 0.011, 0.005)  # upright; the node lays it down
 CHITIN_IOR, FILM_IOR = 1.56, 2.0
 THICKNESS_NM = 345.0
-DIMPLES, DIMPLE_SLOPE = 8, 0.35
+DIMPLES, DIMPLE_SLOPE = 24, 0.2
 
 
 def build() -> Sample:
@@ -44,7 +44,7 @@ def build() -> Sample:
     # A quarter turn about X: the poles, where the texture is pinched, become head and tail.
     lying = (sqrt(0.5), 0.0, 0.0, sqrt(0.5))
     builder.mesh("wing case", ellipsoid(HALF_AXES_M, rings=32, segments=64), material, rotation=lying)
-    builder.perspective_camera((0.02, 0.022, 0.032), (0.0, 0.0, 0.0), 0.5)
+    builder.perspective_camera((0.017, 0.0235, 0.0235), (0.0, 0.0, 0.0), 0.5)
     builder.directional_light((-0.2, -0.9, -0.4), 1.0)
     return Sample(
         name="beetle",
@@ -64,7 +64,7 @@ def build() -> Sample:
         sources=(
             "Base index 1.56, that of chitin. A real wing case is a stack of many layers; one film "
             "of index 2.0 and 345 nm stands for it, chosen for its green. Length 22 mm. Normal tile "
-            "64 × 64, laid eight times along each coordinate (KHR_texture_transform)."
+            "64 × 64, laid 24 times along each coordinate (KHR_texture_transform)."
         ),
         files=builder.to_glb(),
     )
