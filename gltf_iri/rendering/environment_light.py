@@ -25,8 +25,10 @@ __all__ = [
     "LAYERS_PER_LEVEL",
     "LAYER_ROUGHNESS_MIN",
     "ROUGHNESS_LAYERS",
+    "SHEEN_LAYERS",
     "EnvironmentLight",
     "prepare_environment",
+    "prepare_sheen",
 ]
 
 Float32 = NDArray[np.float32]
@@ -40,8 +42,12 @@ LAYER_ROUGHNESS_MIN: Final = 1.0 / 16.0
 ROUGHNESS_LAYERS: Final = 9
 _LEVEL_SIZES: Final = ((512, 256), (256, 128), (128, 64), (64, 32))
 _LOBE_SAMPLES: Final = (48, 192, 600)
-# A cosine lobe is wide: it is integrated texel by texel over a map of this height.
-_DIFFUSE_SOURCE_HEIGHT: Final = 32
+# Layers of sheen roughness 0, ¼ … 1: fibres send light to all sides, and their lobe changes slowly.
+SHEEN_LAYERS: Final = 5
+_SHEEN_SIZE: Final = (48, 24)
+
+# Cosine lobes and fibres are wide: they are integrated texel by texel over a map of this height.
+_WIDE_SOURCE_HEIGHT: Final = 32
 
 # Each sample averages over more than its share: neighbours overlap, or a small bright lamp would show as a
 # group of separate images of itself.
@@ -67,10 +73,27 @@ class EnvironmentLight:
 def prepare_environment(context: moderngl.Context, environment: Environment) -> EnvironmentLight:
     """Prefilter `environment`; the caller releases the result."""
     lamps, dim = split_lamps(environment.radiance)
-    levels = environment_levels(dim)
-    rest = _upload(context, levels)
+    rest = _upload(context, environment_levels(dim))
     sharp = _upload(context, environment_levels(environment.radiance)) if len(lamps) else rest
-    return EnvironmentLight(sharp, rest, _lamps(context, lamps), _layers(context, rest, levels))
+    return EnvironmentLight(sharp, rest, _lamps(context, lamps), _layers(context, rest))
+
+
+def prepare_sheen(context: moderngl.Context, light: EnvironmentLight) -> moderngl.Texture:
+    """Prefilter the whole map as fibres see it, lamps included; the caller releases the result."""
+    texture = compute_texture(
+        context,
+        "pass/prefilter_sheen.frag",
+        (_SHEEN_SIZE[0], _SHEEN_SIZE[1] * SHEEN_LAYERS),
+        4,
+        {"u_level": _wide_source_level(light.sharp), "u_layer_size": _SHEEN_SIZE},
+        {"u_environment": light.sharp},
+    )
+    _wrap(context, texture)
+    return texture
+
+
+def _wide_source_level(environment: moderngl.Texture) -> int:
+    return next(level for level in range(32) if environment.height >> level <= _WIDE_SOURCE_HEIGHT)
 
 
 def _lamps(context: moderngl.Context, lamps: Float32) -> moderngl.Texture:
@@ -82,7 +105,7 @@ def _lamps(context: moderngl.Context, lamps: Float32) -> moderngl.Texture:
     return texture
 
 
-def _layers(context: moderngl.Context, rest: moderngl.Texture, levels: list[Float32]) -> moderngl.Texture:
+def _layers(context: moderngl.Context, rest: moderngl.Texture) -> moderngl.Texture:
     made = [_lobes(context, rest, level) for level in range(len(_LOBE_SAMPLES))]
     made.append(
         compute_texture(
@@ -91,7 +114,7 @@ def _layers(context: moderngl.Context, rest: moderngl.Texture, levels: list[Floa
             _stack_size(len(_LOBE_SAMPLES)),
             4,
             {
-                "u_level": next(i for i, map_ in enumerate(levels) if len(map_) <= _DIFFUSE_SOURCE_HEIGHT),
+                "u_level": _wide_source_level(rest),
                 "u_layer_size": _LEVEL_SIZES[-1],
             },
             {"u_environment": rest},

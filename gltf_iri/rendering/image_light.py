@@ -1,11 +1,12 @@
-"""Prefiltered environments and the DFG table, made when first needed and kept."""
+"""Prefiltered environments and the lobes' tables, made when first needed and kept."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from gltf_iri.rendering.environment_light import EnvironmentLight, prepare_environment
-from gltf_iri.rendering.lobe_tables import compute_dfg_table
+from gltf_iri.rendering.environment_light import EnvironmentLight, prepare_environment, prepare_sheen
+from gltf_iri.rendering.lobe_tables import compute_dfg_table, compute_sheen_table
 from gltf_iri.scene.model import Environment
 
 if TYPE_CHECKING:
@@ -14,38 +15,60 @@ if TYPE_CHECKING:
 __all__ = ["ImageLightStore"]
 
 
+@dataclass(slots=True)
+class _Prepared:
+    # The environment is kept beside its textures: its identity is the key only while it lives.
+    environment: Environment
+    light: EnvironmentLight
+    sheen: moderngl.Texture | None = None
+
+
 class ImageLightStore:
     """The image lights of one context."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
-        # The environment is kept beside its textures: its identity is the key only while it lives.
-        self._environments: dict[int, tuple[Environment, EnvironmentLight]] = {}
+        self._prepared: dict[int, _Prepared] = {}
         self._dfg: moderngl.Texture | None = None
+        self._sheen_albedo: moderngl.Texture | None = None
 
-    def textures(self, environment: Environment) -> dict[str, moderngl.Texture]:
-        """Return what the samplers of shaders/lighting/environment.glsl read."""
+    def tables(self, *, with_sheen: bool = False) -> dict[str, moderngl.Texture]:
+        """Return what is read without an environment too: u_dfg, and u_sheen_albedo if asked for."""
         if self._dfg is None:
             self._dfg = compute_dfg_table(self._context)
-        if id(environment) not in self._environments:
-            self._environments[id(environment)] = (
-                environment,
-                prepare_environment(self._context, environment),
-            )
-        light = self._environments[id(environment)][1]
-        return {
+        tables = {"u_dfg": self._dfg}
+        if with_sheen:
+            if self._sheen_albedo is None:
+                self._sheen_albedo = compute_sheen_table(self._context)
+            tables["u_sheen_albedo"] = self._sheen_albedo
+        return tables
+
+    def textures(self, environment: Environment, *, with_sheen: bool = False) -> dict[str, moderngl.Texture]:
+        """Return the tables and what the samplers of shaders/lighting/environment.glsl read."""
+        prepared = self._prepared.get(id(environment))
+        if prepared is None:
+            prepared = _Prepared(environment, prepare_environment(self._context, environment))
+            self._prepared[id(environment)] = prepared
+        light = prepared.light
+        textures = self.tables(with_sheen=with_sheen) | {
             "u_environment": light.sharp,
             "u_environment_rest": light.rest,
             "u_environment_lamps": light.lamps,
             "u_environment_layers": light.layers,
-            "u_dfg": self._dfg,
         }
+        if with_sheen:
+            if prepared.sheen is None:
+                prepared.sheen = prepare_sheen(self._context, light)
+            textures["u_environment_sheen"] = prepared.sheen
+        return textures
 
     def release(self) -> None:
         """Give everything back to OpenGL."""
-        for _, light in self._environments.values():
-            light.release()
-        self._environments.clear()
-        if self._dfg is not None:
-            self._dfg.release()
-            self._dfg = None
+        for prepared in self._prepared.values():
+            prepared.light.release()
+            if prepared.sheen is not None:
+                prepared.sheen.release()
+        self._prepared.clear()
+        for table in filter(None, (self._dfg, self._sheen_albedo)):
+            table.release()
+        self._dfg = self._sheen_albedo = None

@@ -10,6 +10,9 @@
 uniform sampler2D u_environment;
 uniform sampler2D u_environment_rest;
 uniform sampler2D u_environment_layers;
+#ifdef HAS_SHEEN
+uniform sampler2D u_environment_sheen;
+#endif
 
 // A layer of roughness; the one behind the last is irradiance.
 vec3 environment_layer(vec2 uv, int layer) {
@@ -49,3 +52,13 @@ vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spre
 vec3 environment_irradiance(vec3 normal) {
     return environment_layer(equirect_from_direction(normal), ROUGHNESS_LAYERS) + lamp_irradiance(normal);
 }
+
+#ifdef HAS_SHEEN
+// Radiance as fibres collect it about the mirror direction.
+vec3 environment_sheen_radiance(vec3 direction, float sheen_roughness) {
+    vec2 uv = equirect_from_direction(direction);
+    float layer = sheen_roughness * float(SHEEN_LAYERS - 1);
+    return mix(sample_stack(u_environment_sheen, SHEEN_LAYERS, int(layer), 0, uv).rgb,
+               sample_stack(u_environment_sheen, SHEEN_LAYERS, int(ceil(layer)), 0, uv).rgb, fract(layer));
+}
+#endif
