@@ -13,6 +13,7 @@ __all__ = [
     "GLSL_OPTICS_MAX_ABS",
     "GLSL_PIXEL_RELATIVE",
     "GLSL_PIXEL_ROUGHNESS_MIN",
+    "REFERENCE_DEPTH_RELATIVE",
     "SPECTRAL_COLOUR_MAX_ABS",
     "SPECTRAL_REFLECTANCE_MAX_ABS",
     "SPECTRAL_VERSUS_TMM_MAX_ABS",
@@ -41,3 +42,7 @@ GLSL_PIXEL_RELATIVE: Final = 2e-4
 
 # Perceptual roughness from which a pixel is judged; below, 1/α² > 625 and the lobe is reported apart.
 GLSL_PIXEL_ROUGHNESS_MIN: Final = 0.2
+
+# How far apart two renderers may see the same surface through the same pixel: float32 positions of 1e-7, over
+# the slant of what is nearly edge-on.
+REFERENCE_DEPTH_RELATIVE: Final = 1e-4

@@ -1,4 +1,4 @@
-"""`gltf-iri compare`: GLSL, Python and spectral truth on the same pixels."""
+"""`gltf-iri compare`: GLSL, Python, spectral truth and, if asked for, rays on the same pixels."""
 
 from __future__ import annotations
 
@@ -22,6 +22,7 @@ from gltf_iri.cli.common import (
 from gltf_iri.cli.picture_options import EMPTY_PICTURE, SIZE, choose_exposure, exposure_option
 
 if TYPE_CHECKING:
+    from gltf_iri.comparison.reference_result import ReferenceResult
     from gltf_iri.comparison.result import Comparison
 
 __all__ = ["command"]
@@ -48,6 +49,19 @@ __all__ = ["command"]
 @click.option(
     "--white", type=click.Choice(["D65", "E"]), default="D65", show_default=True, help="White of the truth."
 )
+@click.option("--reference", is_flag=True, help="Also cast rays on the CPU and compare with what they see.")
+@click.option(
+    "--samples",
+    type=click.IntRange(1),
+    metavar="N",
+    help="With --reference: samples of the image light for each pixel.  [default: 256]",
+)
+@click.option(
+    "--paths",
+    type=click.IntRange(1),
+    metavar="N",
+    help="With --reference: paths through glass for each pixel.  [default: 64]",
+)
 @json_option
 def command(
     file: Path,
@@ -58,12 +72,17 @@ def command(
     camera: int | None,
     exposure: float | Literal["auto"] | None,
     white: str,
+    reference: bool,
+    samples: int | None,
+    paths: int | None,
     as_json: bool,
 ) -> None:
     """Draw FILE, shade each pixel again in Python and by spectral truth, and say how far apart they are.
 
-    Ends with exit code 1 where GLSL and Python disagree beyond tolerance.
+    Ends with exit code 1 where GLSL and Python disagree beyond tolerance; with --reference also where OpenGL
+    and the rays do, on what both solve exactly.
     """
+    from gltf_iri.comparison.reference_run import against_reference, count_steps
     from gltf_iri.comparison.report import write_report
     from gltf_iri.comparison.run import STEPS, compare
     from gltf_iri.errors import AssetError, UsageError
@@ -75,6 +94,10 @@ def command(
 
     if out == "":
         raise UsageError("The name of the folder is empty; write '.' for this one.")
+    asked = {"image_samples": samples, "paths": paths}
+    counts: dict[str, Any] = {name: count for name, count in asked.items() if count is not None}
+    if counts and not reference:
+        raise UsageError("--samples and --paths are the reference's: add --reference.")
     environment = choose_environment(env)
     model = load(file)
     scene = model.scene()
@@ -83,31 +106,33 @@ def command(
     folder = Path(f"{file.stem}-compared" if out is None else out)
     # matplotlib warns where there is no home to keep its fonts' list in; the figures are the same.
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
-    with progress("Comparing", len(STEPS) + 1) as advance:
-        comparison = compare(
-            Renderer(create_context()),
-            model,
-            scene,
-            plans,
-            view,
-            environment,
-            size=size,
-            exposure=choose_exposure(exposure, scene, environment),
-            white=white,
-            advance=advance,
-        )
+    steps = len(STEPS) + 1 + (count_steps(size) if reference else 0)
+    with progress("Comparing", steps) as advance:
+        arguments = (Renderer(create_context()), model, scene, plans, view, environment)
+        shown: dict[str, Any] = {
+            "size": size,
+            "exposure": choose_exposure(exposure, scene, environment),
+            "advance": advance,
+        }
+        # First, for it may lack a package.
+        held = against_reference(*arguments, **{**shown, **counts}) if reference else None
+        comparison = replace(compare(*arguments, **shown, white=white), reference=held)
         if not comparison.materials:
             comparison = replace(comparison, notes=(*comparison.notes, EMPTY_PICTURE))
-        paths = write_report(comparison, folder)
+        files = write_report(comparison, folder)
         advance()
-    _tell(comparison, paths, as_json=as_json)
+    _tell(comparison, files, as_json=as_json)
     if not comparison.agrees:
-        raise AssetError(f"GLSL and Python disagree beyond tolerance; see {paths['page']}", file=file)
+        raise AssetError(f"GLSL and Python disagree beyond tolerance; see {files['page']}", file=file)
+    if held is not None and not held.agrees:
+        raise AssetError(
+            f"OpenGL and the reference disagree beyond tolerance; see {files['page']}", file=file
+        )
 
 
-def _tell(comparison: Comparison, paths: Mapping[str, Path], *, as_json: bool) -> None:
+def _tell(comparison: Comparison, files: Mapping[str, Path], *, as_json: bool) -> None:
     if as_json:
-        print_json({**comparison.to_json(), "files": dict(paths)})
+        print_json({**comparison.to_json(), "files": dict(files)})
         return
     columns = (
         "material",
@@ -120,6 +145,8 @@ def _tell(comparison: Comparison, paths: Mapping[str, Path], *, as_json: bool) -
         "ΔE picture mean",
     )
     print_table(columns, [_row(material) for material in comparison.to_json()["materials"]])
+    if comparison.reference is not None:
+        _tell_reference(comparison.reference)
     for material in comparison.materials:
         for effect, reason in material.plan.not_drawn.items():
             label = material_label(material.plan.index, material.plan.name)
@@ -128,7 +155,35 @@ def _tell(comparison: Comparison, paths: Mapping[str, Path], *, as_json: bool) -
         note(text)
     if comparison.materials and not comparison.whole.glsl_vs_python.rough.pixels:
         note("No pixel is rough enough to be judged; the agreement above is reported only.")
-    click.echo(f"The page is {paths['page']}.")
+    click.echo(f"The page is {files['page']}.")
+
+
+def _tell_reference(held: ReferenceResult) -> None:
+    columns = (
+        *("material", "same problem: pixels", "max", "edges"),
+        *("whole picture: ΔE mean", "p95", "max", "noise mean"),
+    )
+    result = held.to_json()
+    rows = [
+        (
+            material_label(m["index"], m["name"]) + ", see-through" * m["see_through"],
+            m["same_problem"],
+            m["picture"],
+        )
+        for m in result["materials"]
+    ]
+    rows += [("all opaque", result["same_problem"], result["opaque"])]
+    rows += [("all see-through", None, result["see_through"]), ("all", None, result["whole"])]
+    print_table(columns, [_reference_row(*row) for row in rows], title="Against the CPU reference")
+    note(f"The same problem is lit by {held.lights}; it is judged at the tolerance's roughness and above.")
+
+
+def _reference_row(label: str, same: Mapping[str, Any] | None, picture: Mapping[str, Any]) -> tuple[str, ...]:
+    names = ("delta_e_mean", "delta_e_p95", "delta_e_max", "noise_delta_e_mean")
+    exact = ("–", "–", "–")
+    if same is not None:
+        exact = (str(same["rough"]["pixels"]), _figure(same["rough"]["max_relative"]), str(same["edges"]))
+    return (label, *exact, *(_figure(picture[name]) for name in names))
 
 
 def _row(material: Mapping[str, Any]) -> tuple[str, ...]:
@@ -142,5 +197,9 @@ def _row(material: Mapping[str, Any]) -> tuple[str, ...]:
         material_label(material["index"], material["name"]),
         material["method"] or "no film",
         str(material["glsl_vs_python"]["pixels"]),
-        *("–" if value is None else f"{value:.2g}" for value in figures),
+        *map(_figure, figures),
     )
+
+
+def _figure(value: float | None) -> str:
+    return "–" if value is None else f"{value:.2g}"

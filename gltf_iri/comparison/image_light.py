@@ -1,45 +1,61 @@
-"""What prefiltered image light becomes on a surface: the split sum, layer by layer, below a coat."""
+"""What prefiltered image light becomes on a surface: the split sum, layer by layer."""
 
 from __future__ import annotations
-
-from collections.abc import Callable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.comparison.pixels import ImageLight
-from gltf_iri.optics.layering import Layer
+from gltf_iri.optics.layering import transmitted_share
+from gltf_iri.optics.sheen import sheen_weight
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.reference.layers import CLEARCOAT_F0
+from gltf_iri.reference.lobes import layered_reflectances
 from gltf_iri.reference.surface import Surface
 
-__all__ = ["image_light"]
+__all__ = ["image_light", "under_clearcoat"]
 
 Float64 = NDArray[np.float64]
-Layers = Callable[[Float64, Float64], tuple[Layer, Float64]]
 
 
-def image_light(surface: Surface, light: ImageLight, layers: Layers) -> Float64:
-    """Return what n pixels send of the image light, (n, 3), before emission and clearcoat.
+def image_light(
+    surface: Surface, light: ImageLight, plan: MaterialPlan, filmed: tuple[Float64, Float64]
+) -> Float64:
+    """Return what n pixels send of the image light, (n, 3), without emission and clearcoat.
 
     Split sum (Karis 2013, "Real Shading in Unreal Engine 4"): what a lobe reflects of a white sky, times the
-    light that reaches it. The base transmits what it does not reflect, colour by colour.
+    light that reaches it; plain = F0·A + B, film = F(N·V)·(A + B). The base transmits what the interface does
+    not reflect, colour by colour.
 
     Parameters
     ----------
-    layers : maps the split sum's A and B, (n, 1), to the dielectric's layer and the metal's reflectance.
+    filmed : the film's reflectances at N·V over the dielectric and over the metal, (n, 3) each.
     """
-    dielectric, metal = layers(light.dfg_a[:, None], light.dfg_b[:, None])
-    passes = surface.transmission[:, None]
-    scattered = dielectric.base_weight[:, None] * light.irradiance
-    transmitted = np.clip(1.0 - dielectric.specular, 0.0, 1.0) * light.transmitted_radiance
+    a, b = light.dfg_a[:, None], light.dfg_b[:, None]
+    layers = layered_reflectances(
+        surface,
+        plan,
+        (surface.dielectric_f0 * a + b, surface.base_color * a + b),
+        ((a + b) * filmed[0], (a + b) * filmed[1]),
+    )
+    passes, m = surface.transmission[:, None], surface.metallic[:, None]
+    scattered = layers.dielectric.base_weight[:, None] * light.irradiance
+    transmitted = transmitted_share(layers.dielectric.specular) * light.transmitted_radiance
     base = surface.base_color * ((1.0 - passes) * scattered + passes * transmitted)
-    share = surface.metallic[:, None]
-    sent = (1.0 - share) * (base + dielectric.specular * light.reflected_radiance)
-    sent = sent + share * metal * light.reflected_radiance
-    return _under_sheen(surface, light, sent)
+    reflected = (1.0 - m) * layers.dielectric.specular + m * layers.metal
+    return _under_sheen(surface, light, (1.0 - m) * base + reflected * light.reflected_radiance)
 
 
 def _under_sheen(surface: Surface, light: ImageLight, sent: Float64) -> Float64:
     """Lay fibres over what is `sent`: they take the share of it that they reflect (KHR_materials_sheen)."""
-    albedo = light.sheen_albedo[:, None]
-    kept = 1.0 - surface.sheen_color.max(axis=-1, keepdims=True) * albedo
-    return np.asarray(surface.sheen_color * albedo * light.sheen_radiance + kept * sent)
+    fibres = surface.sheen_color * light.sheen_albedo[:, None] * light.sheen_radiance
+    return np.asarray(fibres + sheen_weight(surface.sheen_color, light.sheen_albedo)[:, None] * sent)
+
+
+def under_clearcoat(surface: Surface, light: ImageLight, sent: Float64) -> Float64:
+    """Lay the coat over what is `sent`, (n, 3), emission included (KHR_materials_clearcoat).
+
+    It reflects R = clearcoat · (0.04·A + B) of its own light, and takes as much from what is below.
+    """
+    coat = surface.clearcoat * (CLEARCOAT_F0 * light.clearcoat_a + light.clearcoat_b)
+    return np.asarray(sent + coat[:, None] * (light.clearcoat_radiance - sent))

@@ -17,17 +17,18 @@ from gltf_iri.comparison.methods import BRANCH, TRUTH, film_method, white_of
 from gltf_iri.comparison.metric import Agreement, ColourError, agreement, colour_error, relative_deviation
 from gltf_iri.comparison.pixels import image_light_of_pixels, surface_of_pixels
 from gltf_iri.comparison.result import Comparison, MaterialResult, PictureResult, Pictures, Split
-from gltf_iri.comparison.shade import FilmMethod, shade
+from gltf_iri.comparison.shade import shade
 from gltf_iri.errors import AssetError, UsageError
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.reference.film import FilmMethod
 from gltf_iri.rendering.frame import Frame, ShadingInputs
 from gltf_iri.scene.model import Camera, Light
 from gltf_iri.tolerances import GLSL_PIXEL_ROUGHNESS_MIN
 
-__all__ = ["Shot", "judge"]
+__all__ = ["Shot", "inputs_of", "judge"]
 
 Float64 = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -58,8 +59,8 @@ def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Compariso
     shot : materials, plans, lights and camera that it was rendered with.
     coarse : the same picture with 8-bit textures, also with inputs; None where there are no textures.
     """
-    inputs = _inputs_of(frame)
-    coarse_inputs = None if coarse is None else _inputs_of(coarse)
+    inputs = inputs_of(frame)
+    coarse_inputs = None if coarse is None else inputs_of(coarse)
     canvas = np.zeros(inputs.colour.shape)
     pictures = Pictures(
         glsl=np.where((inputs.material >= 0)[..., None], inputs.colour, 0.0).astype(np.float64),
@@ -209,7 +210,8 @@ def _draw_texture_difference(
     )
 
 
-def _inputs_of(frame: Frame) -> ShadingInputs:
+def inputs_of(frame: Frame) -> ShadingInputs:
+    """Return what the pixels of `frame` were shaded with; UsageError where it was drawn without that."""
     if frame.inputs is None:
         raise UsageError("This frame holds no shading inputs; render it with with_inputs=True.")
     return frame.inputs

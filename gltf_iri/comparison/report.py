@@ -45,6 +45,11 @@ def _images(comparison: Comparison) -> dict[str, bytes]:
     }
     if shown.texture_delta_e is not None:
         images["difference_8bit_textures"] = delta_e_map(shown.texture_delta_e, shown.drawn)
+    held = comparison.reference
+    if held is not None:
+        images["drawn"] = picture(held.glsl, held.drawn, exposure)
+        images["reference"] = picture(held.picture, held.drawn, exposure)
+        images["difference_reference"] = delta_e_map(held.delta_e, held.drawn)
     return images
 
 

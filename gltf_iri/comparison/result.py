@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.comparison.metric import Agreement, ColourError
+from gltf_iri.comparison.reference_result import ReferenceResult
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.tolerances import GLSL_PIXEL_RELATIVE, GLSL_PIXEL_ROUGHNESS_MIN
 
@@ -106,6 +107,7 @@ class Comparison:
     whole: PictureResult
     pictures: Pictures
     notes: tuple[str, ...]
+    reference: ReferenceResult | None = None  # None: it was not asked for
 
     @property
     def agrees(self) -> bool:
@@ -123,6 +125,7 @@ class Comparison:
             "program": dict(self.program),
             "materials": [m.to_json() for m in self.materials],
             "picture": self.whole.to_json(),
+            "reference": None if self.reference is None else self.reference.to_json(),
             "notes": list(self.notes),
         }
 

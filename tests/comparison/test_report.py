@@ -9,8 +9,12 @@ import re
 from dataclasses import replace
 
 import jsonschema
+import numpy as np
 import pytest
 
+from gltf_iri.comparison.metric import agreement
+from gltf_iri.comparison.reference_judge import noisy_error
+from gltf_iri.comparison.reference_result import ReferenceMaterial, ReferenceResult, SameProblem
 from gltf_iri.comparison.report import report_html, write_report
 from gltf_iri.errors import UsageError
 from gltf_iri.resources import spec_root
@@ -70,6 +74,46 @@ def test_a_hostile_material_name_stays_text(written) -> None:
     assert "<script" not in page
     assert "&lt;script&gt;alert(1)&lt;/script&gt;" in page
     assert "{{ 7*7 }}" in page
+
+
+@pytest.fixture
+def held(judged):
+    """A comparison with the reference beside it, which sees what OpenGL drew, but for noise."""
+    comparison = judged(name=HOSTILE)
+    shown = comparison.pictures
+    nothing = agreement(np.zeros((0, 3)), np.zeros((0, 3)))
+    same = SameProblem(agreement(shown.glsl[shown.drawn], shown.python[shown.drawn]), nothing, 1)
+    noisy = noisy_error(shown.glsl, shown.glsl, 0.01 * shown.glsl, shown.drawn, 1.0)
+    none = noisy_error(shown.glsl, shown.glsl, shown.glsl, ~shown.drawn, 1.0)
+    result = ReferenceResult(
+        lights=HOSTILE,
+        samples={"image_samples": 16, "paths": 4},
+        seconds=1.5,
+        same_problem=same,
+        opaque=noisy,
+        see_through=none,
+        whole=noisy,
+        materials=(ReferenceMaterial(0, HOSTILE, False, same, noisy),),
+        glsl=shown.glsl,
+        picture=shown.glsl,
+        drawn=shown.drawn,
+        delta_e=shown.delta_e,
+    )
+    return replace(comparison, reference=result)
+
+
+def test_the_reference_is_in_the_report_where_it_was_asked_for(held, tmp_path) -> None:
+    paths = write_report(held, tmp_path)
+    schema = json.loads((spec_root() / "report.schema.json").read_text())
+    report = json.loads(paths["report"].read_text())
+    jsonschema.Draft202012Validator(schema).validate(report)
+    assert report["reference"]["whole"]["noise_delta_e_mean"] > report["reference"]["whole"]["delta_e_mean"]
+    assert report["reference"]["see_through"]["delta_e_mean"] is None
+    page = paths["page"].read_text()
+    assert "Where both solve the same problem, OpenGL and the reference are at most" in page
+    assert "<script" not in page
+    for name in ("drawn", "reference", "difference_reference"):
+        assert paths[name].read_bytes().startswith(b"\x89PNG")
 
 
 def test_page_loads_nothing_from_anywhere(written) -> None:

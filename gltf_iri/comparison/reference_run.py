@@ -1,0 +1,156 @@
+"""Renders a scene twice with OpenGL and twice by casting rays, and has the pictures judged."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.comparison.judge import inputs_of
+from gltf_iri.comparison.reference_judge import (
+    delta_e_picture,
+    is_see_through,
+    noisy_error,
+    same_problem,
+    same_surface,
+)
+from gltf_iri.comparison.reference_result import NoisyError, ReferenceMaterial, ReferenceResult
+from gltf_iri.comparison.rig import RIG, rig
+from gltf_iri.planning.decide import complete_plans
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.reference.render import ReferenceFrame, render_reference
+from gltf_iri.reference.tiles import count_tiles
+from gltf_iri.rendering.frame import ShadingInputs
+from gltf_iri.rendering.render import Renderer
+from gltf_iri.scene.load import Model
+from gltf_iri.scene.model import Camera, Environment, Scene
+
+__all__ = ["against_reference", "count_steps"]
+
+Float64 = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+
+def count_steps(size: tuple[int, int]) -> int:
+    """Return how often `against_reference` calls `advance` for a picture of this size."""
+    return 2 * count_tiles(size)
+
+
+def against_reference(
+    renderer: Renderer,
+    model: Model,
+    scene: Scene,
+    plans: Sequence[MaterialPlan],
+    camera: Camera,
+    environment: Environment | None,
+    *,
+    size: tuple[int, int],
+    exposure: float = 0.0,
+    image_samples: int = 256,
+    paths: int = 64,
+    advance: Callable[[], None] = lambda: None,
+) -> ReferenceResult:
+    """Hold what OpenGL draws of `scene` against what rays see of it from the same camera.
+
+    Parameters
+    ----------
+    plans : one for each material of `model`; the default material's is added where the scene uses it.
+    exposure : in EV; linear light is multiplied by 2^exposure before ΔE2000.
+    image_samples, paths : of the reference, a pixel (`render_reference`).
+
+    Raises MissingCapabilityError without OpenGL or embreex, and what `render_reference` raises.
+    """
+    started = time.perf_counter()
+    plans = complete_plans(plans, scene)
+    factor = 2.0**exposure
+    inputs, exact, lights = _same_problem(renderer, model, scene, plans, camera, size, advance)
+    estimate = render_reference(
+        model,
+        scene,
+        plans,
+        camera,
+        environment,
+        size=size,
+        image_samples=image_samples,
+        paths=paths,
+        advance=advance,
+    )
+    # Without smaller copies of the textures, which rays do not see either: what differs then is the light.
+    draw = partial(renderer.render, model, size=size, samples=0, float_textures=True, sharp_textures=True)
+    glsl = draw(scene, plans, camera, environment).rgba[..., :3].astype(np.float64)
+    behind = draw(replace(scene, primitives=()), plans, camera, environment).rgba[..., :3]
+    mean = estimate.rgba[..., :3] + (1.0 - estimate.rgba[..., 3:]) * behind
+    is_same = same_surface(inputs, exact, camera)
+
+    def error(mask: Mask) -> NoisyError:
+        return noisy_error(glsl, mean, estimate.standard_error, mask & is_same, factor)
+
+    drawn = inputs.material >= 0
+    through = np.isin(inputs.material, [slot for slot, plan in enumerate(plans) if is_see_through(plan)])
+    materials = tuple(
+        ReferenceMaterial(
+            plan.index,
+            plan.name,
+            is_see_through(plan),
+            same_problem(inputs, exact, (inputs.material == slot) & ~through, is_same),
+            error(inputs.material == slot),
+        )
+        for slot, plan in enumerate(plans)
+        if (inputs.material == slot).any()
+    )
+    return ReferenceResult(
+        lights=lights,
+        samples={"image_samples": image_samples, "paths": paths},
+        seconds=time.perf_counter() - started,
+        same_problem=same_problem(inputs, exact, drawn & ~through, is_same),
+        opaque=error(drawn & ~through),
+        see_through=error(through),
+        whole=error(drawn),
+        materials=materials,
+        glsl=glsl,
+        picture=mean,
+        drawn=drawn,
+        delta_e=delta_e_picture(glsl, mean, drawn & is_same, factor),
+    )
+
+
+def _same_problem(
+    renderer: Renderer,
+    model: Model,
+    scene: Scene,
+    plans: Sequence[MaterialPlan],
+    camera: Camera,
+    size: tuple[int, int],
+    advance: Callable[[], None],
+) -> tuple[ShadingInputs, ReferenceFrame, str]:
+    """Return both renderers' pictures of what both solve exactly, and what the light is, in words."""
+    lights = "the scene's own"
+    if not scene.lights:
+        scene, lights = replace(scene, lights=rig(scene, camera)), RIG
+    exact = render_reference(
+        model,
+        scene,
+        plans,
+        camera,
+        None,
+        size=size,
+        lighting="punctual",
+        is_blending=False,
+        advance=advance,
+    )
+    frame = renderer.render(
+        model,
+        scene,
+        plans,
+        camera,
+        None,
+        size=size,
+        float_textures=True,
+        sharp_textures=True,
+        with_inputs=True,
+    )
+    return inputs_of(frame), exact, lights
