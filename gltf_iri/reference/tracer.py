@@ -18,7 +18,7 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.reference.candidates import RESOLUTION, Candidates
 from gltf_iri.reference.cutout import is_cut_out
 from gltf_iri.reference.stage import Stage
-from gltf_iri.reference.triangles import intersect, world_triangles
+from gltf_iri.reference.triangles import intersect, nearest_point, world_triangles
 
 __all__ = ["Hits", "Tracer"]
 
@@ -36,6 +36,13 @@ _MAX_LAYERS: Final = 256
 # misses in float32 lies closer than that.
 _RING: Final = (2.0, 8.0, 32.0)
 _RING_DIRECTIONS: Final = 6
+
+# Where dozens of triangles share a corner, rounding can leave a ray through it with none of them, and the
+# ring need not find the right one. A ray this close to the one that Embree named, in resolutions, takes it.
+_SLACK: Final = 4.0
+
+# Where the second ray of each query runs, in resolutions: off any axis, so that it meets no row of corners.
+_BESIDE: Final = (1.3, 0.7)
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,8 +126,7 @@ class Tracer:
         start = self._candidates.entry_m(query.origins[rows], query.directions[rows])
         start = np.maximum(query.near[rows], start)
         for _ in range(_MAX_LAYERS):
-            directions = query.directions[rows]
-            place, ahead = self._candidates.ask(query.origins[rows] + start[:, None] * directions, directions)
+            place, ahead = self._ask(query, rows, start)
             going_on = (place >= 0) & (start + ahead <= query.far[rows] + self._resolution_m)
             rows, place, there = rows[going_on], place[going_on], (start + ahead)[going_on]
             if not len(rows):
@@ -131,14 +137,31 @@ class Tracer:
                 for beside in self._around(query, rows[missed], there[missed]):
                     known = beside >= 0
                     self._meet(query, rows[missed][known], beside[known], there[missed][known])
+                closed = missed & ~query.found.valid[rows]
+                reached[closed] = self._meet(query, rows[closed], place[closed], there[closed], _SLACK)
             is_open = ~query.found.valid[rows]
             start = np.fmax(np.maximum(start[going_on], there), reached)[is_open] + self._resolution_m
             rows = rows[is_open]
 
-    def _meet(self, query: _Query, rows: Int64, place: Int64, there: Float64) -> Float64:
+    def _ask(self, query: _Query, rows: Int64, start: Float64) -> tuple[Int64, Float64]:
+        """Return the place that each ray of `rows` seems to meet next after `start`, and how far from there.
+
+        Through an exact corner Embree may slip; a second ray right beside the first then tells.
+        """
+        directions = query.directions[rows]
+        origins = query.origins[rows] + start[:, None] * directions
+        place, ahead = self._candidates.ask(origins, directions)
+        across, up = _axes_across(directions)
+        offset = _BESIDE[0] * across + _BESIDE[1] * up
+        other_place, other = self._candidates.ask(origins + self._resolution_m * offset, directions)
+        is_nearer = (other_place >= 0) & (other < ahead - _SLACK * self._resolution_m)
+        return np.where(is_nearer, other_place, place), np.where(is_nearer, other, ahead)
+
+    def _meet(self, query: _Query, rows: Int64, place: Int64, there: Float64, slack: float = 0.0) -> Float64:
         """Keep what each ray of `rows` meets at its `place`, if it is seen and nearer than what is known.
 
-        `there` is roughly how far that is. Returns how far it is, kept or not; NaN where the ray passes by.
+        `there` is roughly how far that is; a ray that passes by within `slack` resolutions meets it too.
+        Returns how far it is, kept or not; NaN where the ray passes by.
         """
         found = query.found
         directions = query.directions[rows]
@@ -151,9 +174,11 @@ class Tracer:
             if not len(waiting):
                 break
             triangle = self._triangles.members[member]
-            ahead, weights, turns_left = intersect(
-                self._triangles.corners[triangle], origins[waiting], directions[waiting]
-            )
+            given = self._triangles.corners[triangle], origins[waiting], directions[waiting]
+            ahead, weights, turns_left = intersect(*given)
+            if slack:
+                ahead, weights, beside = nearest_point(*given, weights)
+                ahead[beside > slack * self._resolution_m] = np.nan
             distance = there[waiting] + ahead
             reached[waiting] = distance
             row = rows[waiting]
@@ -188,13 +213,18 @@ class Tracer:
     def _around(self, query: _Query, rows: Int64, there: Float64) -> Iterator[Int64]:
         """Yield the places (n,) that rays right beside those of `rows` meet, −1 for none."""
         directions = query.directions[rows]
-        # A direction across the ray: made from the axis to which it is least parallel.
-        across = np.cross(directions, np.eye(3)[np.argmin(np.abs(directions), axis=1)])
-        across /= np.linalg.norm(across, axis=1, keepdims=True)
-        up = np.cross(directions, across)
+        across, up = _axes_across(directions)
         # Back from the surface, so that what stands a little before it is met too.
         behind = query.origins[rows] + (there - 2.0 * _RING[-1] * self._resolution_m)[:, None] * directions
         for size in _RING:
             for turn in np.arange(_RING_DIRECTIONS) * (2.0 * np.pi / _RING_DIRECTIONS):
                 offset = size * self._resolution_m * (np.cos(turn) * across + np.sin(turn) * up)
                 yield self._candidates.ask(behind + offset, directions)[0]
+
+
+def _axes_across(directions: Float64) -> tuple[Float64, Float64]:
+    """Return two unit vectors (n, 3) across each direction and across each other."""
+    # Made from the axis to which the direction is least parallel.
+    across = np.cross(directions, np.eye(3)[np.argmin(np.abs(directions), axis=1)])
+    across /= np.linalg.norm(across, axis=1, keepdims=True)
+    return across, np.cross(directions, across)

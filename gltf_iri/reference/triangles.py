@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from gltf_iri.scene.model import Scene
 
-__all__ = ["Triangles", "intersect", "world_triangles"]
+__all__ = ["Triangles", "intersect", "nearest_point", "world_triangles"]
 
 Float64 = NDArray[np.float64]
 Int64 = NDArray[np.int64]
@@ -64,7 +64,10 @@ def world_triangles(scene: Scene) -> Triangles:
 def intersect(
     corners: Float64, origins: Float64, directions: Float64
 ) -> tuple[Float64, Float64, NDArray[np.bool_]]:
-    """Return distances (n,), NaN where a ray passes by, barycentrics (n, 3), and who turns counter-clockwise.
+    """Return distances (n,), NaN where a ray passes by, barycentrics (n, 3), and who turns left.
+
+    Barycentrics are those of the triangle's plane, also where a ray passes by; 0 where it runs in the plane.
+    Corners that turn left run counter-clockwise as the ray sees them.
 
     The signed volumes that ray and edges span, d·(c × b) and so on (Woop, Benthin & Wald 2013, "Watertight
     Ray/Triangle Intersection", without its shear). Two triangles with a common edge compute the same number
@@ -80,10 +83,29 @@ def intersect(
         [_dot(directions, _cross(c, b)), _dot(directions, _cross(a, c)), _dot(directions, _cross(b, a))]
     )
     total = volumes.sum(axis=1)
-    is_met = (np.all(volumes >= 0.0, axis=1) | np.all(volumes <= 0.0, axis=1)) & (total != 0.0)
-    weights = volumes / np.where(is_met, total, 1.0)[:, None]
+    crosses = total != 0.0
+    is_met = (np.all(volumes >= 0.0, axis=1) | np.all(volumes <= 0.0, axis=1)) & crosses
+    weights = np.where(crosses[:, None], volumes, 0.0) / np.where(crosses, total, 1.0)[:, None]
     reached = weights[:, :1] * a + weights[:, 1:2] * b + weights[:, 2:] * c
     return np.where(is_met, _dot(reached, directions), np.nan), weights, total > 0.0
+
+
+def nearest_point(
+    corners: Float64, origins: Float64, directions: Float64, weights: Float64
+) -> tuple[Float64, Float64, Float64]:
+    """Return a point of each triangle close to a ray that passes by, and how close it is.
+
+    weights : (n, 3), as `intersect` returned them; cut off at the edges, they are the point's.
+
+    Returns distances along the rays (n,), barycentrics (n, 3), and distances off them (n,), ∞ for none.
+    """
+    inside = np.clip(weights, 0.0, None)
+    total = inside.sum(axis=1, keepdims=True)
+    inside = inside / np.where(total > 0.0, total, 1.0)
+    offset = np.einsum("nc,nck->nk", inside, corners) - origins
+    along = _dot(offset, directions)
+    beside = np.linalg.norm(offset - along[:, None] * directions, axis=1)
+    return along, inside, np.where(total[:, 0] > 0.0, beside, np.inf)
 
 
 def _dot(a: Float64, b: Float64) -> Float64:
