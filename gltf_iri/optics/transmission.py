@@ -26,7 +26,7 @@ def refraction_roughness(perceptual_roughness: ArrayLike, ior: ArrayLike) -> Flo
     """
     alpha = np.square(np.asarray(perceptual_roughness, dtype=np.float64))
     spread = _BOTH_SIDES * 0.5 * np.abs(np.asarray(ior, dtype=np.float64) - 1.0) * alpha
-    return np.sqrt(np.minimum(spread, 1.0))
+    return np.asarray(np.sqrt(np.minimum(spread, 1.0)))
 
 
 def dispersed_iors(ior: ArrayLike, dispersion: ArrayLike) -> Float64:
@@ -36,4 +36,5 @@ def dispersed_iors(ior: ArrayLike, dispersion: ArrayLike) -> Float64:
     """
     n = np.asarray(ior, dtype=np.float64)
     half_spread = 0.025 * (n - 1.0) * np.asarray(dispersion, dtype=np.float64)
-    return np.maximum(np.stack(np.broadcast_arrays(n - half_spread, n, n + half_spread), axis=-1), 1.0)
+    iors = np.stack(np.broadcast_arrays(n - half_spread, n, n + half_spread), axis=-1)
+    return np.asarray(np.maximum(iors, 1.0))

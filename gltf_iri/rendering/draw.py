@@ -1,79 +1,105 @@
-"""Draws primitives in the right order with the right culling, depth and blending (glTF 2.0 §3.9.4-5)."""
+"""Draws primitives with the right culling, depth and blending (glTF 2.0 §3.9.4-5)."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.rendering.uniforms import bind
-from gltf_iri.scene.model import Camera, Primitive
+from gltf_iri.scene.model import Primitive
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["Draw", "draw_primitives"]
+__all__ = ["Draw", "Shader", "draw_faces", "draw_opaque"]
+
+
+@dataclass(frozen=True, slots=True)
+class Shader:
+    """A program, and the vertices as it reads them."""
+
+    program: moderngl.Program
+    vertex_array: moderngl.VertexArray
 
 
 @dataclass(frozen=True, slots=True)
 class Draw:
-    """One primitive, ready to be drawn."""
+    """One primitive, ready to be drawn into any of the targets that `shaders` names."""
 
     primitive: Primitive
     plan: MaterialPlan
-    program: moderngl.Program
-    vertex_array: moderngl.VertexArray
-    uniforms: dict[str, Any]
-    textures: dict[str, moderngl.Texture]
+    shaders: Mapping[str, Shader]
+    uniforms: Mapping[str, Any]
+    textures: Mapping[str, moderngl.Texture]
 
     @property
     def is_blended(self) -> bool:
-        """True where the surface lets what is behind it through."""
+        """True where alpha lets what is behind the surface through: it is drawn over that."""
         return self.plan.calls_for(Effect.ALPHA_BLEND)
 
+    @property
+    def is_transmissive(self) -> bool:
+        """True where the surface itself reads what is behind it."""
+        return self.plan.calls_for(Effect.TRANSMISSION)
 
-def draw_primitives(
-    framebuffer: moderngl.Framebuffer, draws: Iterable[Draw], camera: Camera, *, is_blending: bool
+    @property
+    def is_see_through(self) -> bool:
+        """True where it matters what was drawn before."""
+        return self.is_blended or self.is_transmissive
+
+
+def draw_opaque(context: moderngl.Context, draws: Iterable[Draw], target: str) -> None:
+    """Draw into the framebuffer in use what is not see-through; depth decides what is seen."""
+    context.enable_only(context.DEPTH_TEST)
+    for draw in draws:
+        if not draw.is_see_through:
+            culled = None if draw.plan.calls_for(Effect.DOUBLE_SIDED) else "back"
+            _draw(context, draw, target, culled, {})
+
+
+def draw_faces(
+    framebuffer: moderngl.Framebuffer,
+    draw: Draw,
+    culled: str | None,
+    captured: Mapping[str, moderngl.Texture],
+    *,
+    target: str,
+    is_blending: bool,
 ) -> None:
-    """Draw opaque primitives, then blended ones from the farthest centroid to the nearest.
+    """Draw a see-through primitive into `framebuffer`, which is in use.
 
-    Without `is_blending` every primitive is drawn as if it were opaque.
+    culled : the face that is left out.
+    captured : what a transmissive surface sees.
+    is_blending : False draws blended surfaces as if opaque.
     """
     context = framebuffer.ctx
-    in_order = list(draws)
-    blended = [draw for draw in in_order if is_blending and draw.is_blended]
     context.enable_only(context.DEPTH_TEST)
-    for draw in in_order:
-        if not (is_blending and draw.is_blended):
-            _draw(context, draw, [None if draw.plan.calls_for(Effect.DOUBLE_SIDED) else "back"])
-    context.enable(context.BLEND)
-    context.blend_func = context.ONE, context.ONE_MINUS_SRC_ALPHA  # the shader writes premultiplied light
-    framebuffer.depth_mask = False
-    for draw in sorted(blended, key=lambda draw: _depth(draw.primitive, camera), reverse=True):
-        # Of a double-sided shape the far side first, then the near one.
-        _draw(context, draw, ["front", "back"] if draw.plan.calls_for(Effect.DOUBLE_SIDED) else ["back"])
+    is_blended = is_blending and draw.is_blended
+    if is_blended:
+        context.enable(context.BLEND)
+        context.blend_func = context.ONE, context.ONE_MINUS_SRC_ALPHA  # the shader writes premultiplied light
+    framebuffer.depth_mask = not is_blended
+    _draw(context, draw, target, culled, captured)
     framebuffer.depth_mask = True
 
 
-def _draw(context: moderngl.Context, draw: Draw, culled: Sequence[str | None]) -> None:
-    """Draw once for each entry of `culled`: the face that is left out, or None for neither."""
-    bind(draw.program, draw.uniforms, draw.textures)
+def _draw(
+    context: moderngl.Context,
+    draw: Draw,
+    target: str,
+    culled: str | None,
+    captured: Mapping[str, moderngl.Texture],
+) -> None:
+    shader = draw.shaders[target]
+    bind(shader.program, draw.uniforms, {**draw.textures, **captured})
     # A mirrored primitive's triangles turn the other way round (glTF 2.0 §3.7.4).
     context.front_face = "cw" if draw.primitive.is_mirrored else "ccw"
-    for face in culled:
-        if face is None:
-            context.disable(context.CULL_FACE)
-        else:
-            context.enable(context.CULL_FACE)
-            context.cull_face = face
-        draw.vertex_array.render()
-
-
-def _depth(primitive: Primitive, camera: Camera) -> float:
-    """Return how far the mean of the vertices lies in front of the camera."""
-    mean = primitive.world @ np.append(primitive.positions.mean(axis=0, dtype=np.float64), 1.0)
-    return float(-(camera.view[2] @ mean))
+    if culled is None:
+        context.disable(context.CULL_FACE)
+    else:
+        context.enable(context.CULL_FACE)
+        context.cull_face = culled
+    shader.vertex_array.render()

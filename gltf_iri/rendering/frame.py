@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,3 +89,5 @@ class Frame:
     milliseconds: float
     notes: tuple[str, ...] = ()
     inputs: ShadingInputs | None = None
+    # Milliseconds of each part: image light, uploads (and compiling), opaque, captures, see-through, …
+    passes: Mapping[str, float] = field(default_factory=dict)

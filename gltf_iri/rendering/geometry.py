@@ -64,7 +64,7 @@ class GeometryStore:
 
 
 def placement_uniforms(primitive: Primitive) -> dict[str, Any]:
-    """Return the world matrix, its cofactors for the normals, and the sign that mirroring gives bitangents.
+    """Return the world matrix, its inverse, its cofactors for normals, and the sign of mirrored bitangents.
 
     Cofactors are the inverse transpose times the determinant; with the determinant's sign they turn normals
     outwards under negative scales too, and they exist where a scale of 0 leaves no inverse.
@@ -78,9 +78,21 @@ def placement_uniforms(primitive: Primitive) -> dict[str, Any]:
     normal_matrix = side * np.column_stack([np.cross(y, z), np.cross(z, x), np.cross(x, y)])
     return {
         "u_world": column_major(primitive.world),
+        "u_world_to_mesh": column_major(_inverse(primitive.world[:3, :3])),
         "u_normal_matrix": column_major(normal_matrix),
         "u_handedness": side,
     }
+
+
+def _inverse(linear: Float64) -> Float64:
+    """Return the inverse of a (3, 3) matrix; 0 where there is none within single precision."""
+    with np.errstate(all="ignore"):
+        try:
+            inverse = np.linalg.inv(linear)
+        except np.linalg.LinAlgError:
+            return np.zeros((3, 3))
+        is_usable = np.all(np.abs(inverse) <= np.finfo(np.float32).max)
+    return np.asarray(inverse, dtype=np.float64) if is_usable else np.zeros((3, 3))
 
 
 def column_major(matrix: Float64) -> tuple[float, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gltf_iri.errors import UsageError
+from gltf_iri.errors import MissingCapabilityError, UsageError
 from gltf_iri.planning.method import METHODS, find_method
 from gltf_iri.rendering.source import ShaderSource, assemble, build_program
 
@@ -33,10 +33,22 @@ class ProgramStore:
         self._context = context
         self._programs: dict[tuple[str, ...], moderngl.Program] = {}
 
-    def get(self, defines: tuple[str, ...]) -> moderngl.Program:
-        """Return the program of one permutation."""
+    def get(self, defines: tuple[str, ...], *, material: str = "") -> moderngl.Program:
+        """Return the program of one permutation; `material` is its name in errors.
+
+        Raises MissingCapabilityError where it samples more textures at once than this OpenGL can: of 3.3 that
+        is 16, and a material with a texture in every place asks for some 25.
+        """
         if defines not in self._programs:
-            self._programs[defines] = build_program(self._context, *surface_sources(defines))
+            vertex, fragment = surface_sources(defines)
+            count = fragment.text.count("uniform sampler")
+            limit = self._context.info["GL_MAX_TEXTURE_IMAGE_UNITS"]
+            if count > limit:
+                raise MissingCapabilityError(
+                    f"The material '{material}' samples {count} textures at once, its lights' included; "
+                    f"this OpenGL takes {limit}."
+                )
+            self._programs[defines] = build_program(self._context, vertex, fragment)
         return self._programs[defines]
 
     def release(self) -> None:

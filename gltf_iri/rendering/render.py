@@ -2,38 +2,44 @@
 
 from __future__ import annotations
 
-import time
-from collections.abc import Collection, Iterable, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.material.interface import material_textures, material_uniforms
-from gltf_iri.material.material import DEFAULT_MATERIAL, Material
 from gltf_iri.planning.decide import complete_plans
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.permutation import permutation, plan_scene_effects, primitive_effects
-from gltf_iri.rendering.background import Background
+from gltf_iri.planning.permutation import plan_scene_effects
+from gltf_iri.rendering.background import BLUR, Background
+from gltf_iri.rendering.capture import Capturing
 from gltf_iri.rendering.context import renderer_name
-from gltf_iri.rendering.draw import Draw, draw_primitives
-from gltf_iri.rendering.frame import INPUT_TARGETS, Frame
-from gltf_iri.rendering.geometry import GeometryStore, placement_uniforms
+from gltf_iri.rendering.draw import Draw, draw_faces, draw_opaque
+from gltf_iri.rendering.frame import INPUT_TARGETS, LAYER_INPUT_TARGETS, Frame
+from gltf_iri.rendering.geometry import GeometryStore
 from gltf_iri.rendering.image_light import ImageLightStore
+from gltf_iri.rendering.passes import PassTimes
+from gltf_iri.rendering.prepare import FIRST_INPUTS, PICTURE, SECOND_INPUTS, needed_targets, prepare_draws
 from gltf_iri.rendering.programs import ProgramStore, check_method
 from gltf_iri.rendering.punctual_lights import lights_texture
-from gltf_iri.rendering.switches import SHADING_INPUTS
+from gltf_iri.rendering.see_through import group_sheets, sheets_in_order
 from gltf_iri.rendering.targets import Targets, check_size, shading_inputs
 from gltf_iri.rendering.textures import TextureStore
 from gltf_iri.rendering.view import background_uniforms, view_uniforms
 from gltf_iri.scene.load import Model
-from gltf_iri.scene.model import Camera, Environment, Primitive, Scene
+from gltf_iri.scene.model import Camera, Environment, Scene
 
 if TYPE_CHECKING:
     import moderngl
 
 __all__ = ["Renderer"]
+
+_TARGET_COUNTS: Final = {
+    PICTURE: 1,
+    FIRST_INPUTS: len(INPUT_TARGETS),
+    SECOND_INPUTS: len(LAYER_INPUT_TARGETS),
+}
 
 
 class Renderer:
@@ -44,6 +50,7 @@ class Renderer:
         self._programs = ProgramStore(context)
         self._image_lights = ImageLightStore(context)
         self._background: Background | None = None
+        self._capturing: Capturing | None = None
 
     def render(
         self,
@@ -69,8 +76,9 @@ class Renderer:
         samples : samples a pixel; 0 or 1 for its centre alone.
         float_textures : textures as linear float32 (see `TextureStore`).
         sharp_textures : textures without minification, as the CPU reference samples them.
-        with_inputs : also return what each pixel's centre was shaded with. There is then no background, and
-            blended materials are drawn as if opaque: an input belongs to one surface.
+        with_inputs : also return what each pixel's centre was shaded with; the picture then has one sample a
+            pixel. In the inputs blended materials are as if opaque, and what light passes through is the
+            surface in front: an input belongs to one surface.
 
         Raises UsageError for a size out of range and a method without GLSL, MissingCapabilityError where
         OpenGL takes fewer samples or smaller textures than are needed.
@@ -86,53 +94,65 @@ class Renderer:
         textures = TextureStore(
             self.context, model.document, float_textures=float_textures, base_level_only=sharp_textures
         )
-        targets = Targets(self.context, size, samples=samples, count=len(INPUT_TARGETS) if with_inputs else 1)
+        names = needed_targets(scene, plans, with_inputs=with_inputs)
+        times = PassTimes(self.context)
         lights = lights_texture(self.context, scene.lights)
-        light = {"u_lights": lights}
+        targets: dict[str, Targets] = {}
         try:
-            if environment is not None:
-                light |= self._image_lights.textures(environment)
-            shared = view_uniforms(camera, size)
+            for name in names:
+                targets[name] = Targets(
+                    self.context,
+                    size,
+                    samples=samples if name == PICTURE else 0,
+                    count=_TARGET_COUNTS[name],
+                )
+            light = {"u_lights": lights}
+            shared = view_uniforms(camera, size) | _surrounding_uniforms(environment)
             shared["u_light_count"] = len(scene.lights)
-            draws = []
-            for primitive in scene.primitives:
-                number, plan, material = _material_of(primitive, plans, model)
-                defines = permutation(plan, primitive_effects(primitive), surroundings)
-                if with_inputs:
-                    defines = (*defines, SHADING_INPUTS)
-                program = self._programs.get(defines)
-                placed = placement_uniforms(primitive) | {"u_material": number}
-                sampled = {n: textures.get(b) for n, b in material_textures(material, defines).items()}
-                draws.append(
-                    Draw(
-                        primitive,
-                        plan,
-                        program,
-                        geometry.vertex_array(primitive, program),
-                        shared | placed | material_uniforms(material, defines),
-                        light | sampled,
+            if environment is not None:
+                with times.measure("image light"):
+                    light |= self._image_lights.textures(environment)
+            with times.measure("uploads"):
+                draws = list(
+                    prepare_draws(
+                        scene,
+                        plans,
+                        model.materials,
+                        surroundings,
+                        names,
+                        self._programs,
+                        geometry,
+                        textures,
+                        shared,
+                        light,
                     )
                 )
-            self.context.finish()
-            started = time.perf_counter()
-            framebuffer = targets.begin()
-            if environment is not None and not with_inputs:
-                shared |= background_uniforms(camera, size)
-                self._draw_background(framebuffer, environment, shared, light)
-            draw_primitives(framebuffer, draws, camera, is_blending=not with_inputs)
-            self.context.finish()
-            milliseconds = (time.perf_counter() - started) * 1000.0
-            rgba = targets.read()
+            self._draw_surfaces(draws, targets, camera, size, times)
+            if environment is not None:
+                if self._background is None:
+                    self._background = Background(self.context)
+                with times.measure("background"):
+                    targets[PICTURE].drawn.use()
+                    self._background.draw(shared | background_uniforms(camera, size), light)
+            with times.measure("read"):
+                rgba = targets[PICTURE].read()
+                inputs = (
+                    shading_inputs(targets[FIRST_INPUTS], targets.get(SECOND_INPUTS)) if with_inputs else None
+                )
             return Frame(
                 rgba,
                 renderer_name(self.context),
-                milliseconds,
+                times.drawing,
                 (*_notes(draws, surroundings, with_inputs=with_inputs), *_overflow(rgba)),
-                shading_inputs(targets) if with_inputs else None,
+                inputs,
+                times.milliseconds,
             )
         finally:
+            if self._capturing is not None:
+                self._capturing.end()
             lights.release()
-            targets.release()
+            for target in targets.values():
+                target.release()
             textures.release()
             geometry.release()
 
@@ -140,30 +160,57 @@ class Renderer:
         """Give everything back to OpenGL; the context stays the caller's."""
         self._programs.release()
         self._image_lights.release()
-        if self._background is not None:
-            self._background.release()
+        for used in (self._background, self._capturing):
+            if used is not None:
+                used.release()
 
-    def _draw_background(
+    def _draw_surfaces(
         self,
-        framebuffer: moderngl.Framebuffer,
-        environment: Environment,
-        uniforms: dict[str, Any],
-        textures: dict[str, moderngl.Texture],
+        draws: Sequence[Draw],
+        targets: Mapping[str, Targets],
+        camera: Camera,
+        size: tuple[int, int],
+        times: PassTimes,
     ) -> None:
-        if environment.backdrop is not None:
-            framebuffer.clear(*environment.backdrop, 0.0, depth=1.0)
-            return
-        if self._background is None:
-            self._background = Background(self.context)
-        self._background.draw(uniforms, textures)
+        """Draw what is opaque, then what is not from the farthest to the nearest, into all targets."""
+        for name, target in targets.items():
+            with times.measure("opaque" if name == PICTURE else "shading inputs"):
+                target.drawn.use()
+                target.clear()
+                draw_opaque(self.context, draws, name)
+        captured: Mapping[str, moderngl.Texture] = {}
+        for group in group_sheets(sheets_in_order(draws, camera, size)):
+            if group.is_capturing:
+                with times.measure("captures"):
+                    captured = self._capture(targets[PICTURE], camera, size)
+            for name, target in targets.items():
+                with times.measure("see-through" if name == PICTURE else "shading inputs"):
+                    target.drawn.use()
+                    for sheet in group.sheets:
+                        draw_faces(
+                            target.drawn,
+                            sheet.draw,
+                            sheet.culled,
+                            captured,
+                            target=name,
+                            is_blending=name == PICTURE,
+                        )
+
+    def _capture(
+        self, target: Targets, camera: Camera, size: tuple[int, int]
+    ) -> Mapping[str, moderngl.Texture]:
+        if self._capturing is None:
+            self._capturing = Capturing(self.context)
+        return self._capturing.take(target.drawn, camera, size)
 
 
-def _material_of(
-    primitive: Primitive, plans: Sequence[MaterialPlan], model: Model
-) -> tuple[int, MaterialPlan, Material]:
-    """Return the place of the primitive's plan among `plans`, the plan, and the material."""
-    number, plan = next((i, plan) for i, plan in enumerate(plans) if plan.index == primitive.material)
-    return number, plan, Material() if plan.index == DEFAULT_MATERIAL else model.materials[plan.index]
+def _surrounding_uniforms(environment: Environment | None) -> dict[str, Any]:
+    """Return what lies behind the scene, for the background and for what is seen through."""
+    backdrop = None if environment is None else environment.backdrop
+    return {
+        "u_backdrop": (0.0, 0.0, 0.0, 0.0) if backdrop is None else (*backdrop, 1.0),
+        "u_background_blur": BLUR,
+    }
 
 
 def _overflow(rgba: NDArray[np.float32]) -> Iterable[str]:
@@ -176,4 +223,4 @@ def _notes(draws: Sequence[Draw], surroundings: Collection[Effect], *, with_inpu
     if not surroundings and any(not draw.plan.calls_for(Effect.UNLIT) for draw in draws):
         yield "There is no light: neither an environment nor a light in the scene."
     if with_inputs and any(draw.is_blended for draw in draws):
-        yield "Blended materials are drawn as if opaque: the inputs of a pixel belong to one surface."
+        yield "In the shading inputs blended materials are as if opaque: a pixel belongs to one surface."

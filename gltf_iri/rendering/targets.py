@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
@@ -14,7 +16,7 @@ from gltf_iri.rendering.fullscreen import release_framebuffer
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["MAX_PIXELS", "Targets", "check_size", "shading_inputs"]
+__all__ = ["MAX_PIXELS", "Targets", "check_size", "out_of_room", "shading_inputs"]
 
 Float32 = NDArray[np.float32]
 
@@ -39,36 +41,41 @@ def check_size(context: moderngl.Context, size: tuple[int, int], samples: int) -
         )
 
 
+@contextmanager
+def out_of_room(size: tuple[int, int]) -> Iterator[None]:
+    """Turn what a driver without memory says into a MissingCapabilityError."""
+    import moderngl
+
+    try:
+        yield
+    except moderngl.Error as error:
+        raise MissingCapabilityError(
+            f"This OpenGL has no room for {size[0]} × {size[1]} pixels; choose a smaller size."
+        ) from error
+
+
 class Targets:
     """Framebuffers of float32 RGBA colour and depth; `count` of them, multisampled where samples > 1."""
 
     def __init__(self, context: moderngl.Context, size: tuple[int, int], *, samples: int, count: int) -> None:
-        import moderngl
-
         self._context = context
         samples = samples if samples > 1 else 0
         self._resolved: moderngl.Framebuffer | None = None
-        try:
+        with out_of_room(size):
             colours = [context.renderbuffer(size, 4, samples=samples, dtype="f4") for _ in range(count)]
-            self._drawn = context.framebuffer(colours, context.depth_renderbuffer(size, samples=samples))
+            self.drawn = context.framebuffer(colours, context.depth_renderbuffer(size, samples=samples))
             if samples:
                 self._resolved = context.framebuffer([context.renderbuffer(size, 4, dtype="f4")])
-        except moderngl.Error as error:  # what a driver without memory says
-            raise MissingCapabilityError(
-                f"This OpenGL has no room for {size[0]} × {size[1]} pixels; choose a smaller size."
-            ) from error
 
-    def begin(self) -> moderngl.Framebuffer:
-        """Return what to draw into, in use and cleared: colour 0, coverage 0, farthest depth."""
-        self._drawn.use()
-        self._drawn.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
-        return self._drawn
+    def clear(self) -> None:
+        """Set colour and coverage to 0, and depth to the farthest."""
+        self.drawn.clear(0.0, 0.0, 0.0, 0.0, depth=1.0)
 
     def read(self, target: int = 0) -> Float32:
         """Return the pixels of a target, (height, width, 4), row 0 at the top."""
-        source = self._drawn
+        source = self.drawn
         if self._resolved is not None:
-            self._context.copy_framebuffer(self._resolved, self._drawn)
+            self._context.copy_framebuffer(self._resolved, self.drawn)
             source = self._resolved
         data = source.read(components=4, attachment=target, dtype="f4")
         width, height = source.size
@@ -76,23 +83,23 @@ class Targets:
 
     def release(self) -> None:
         """Give everything back to OpenGL."""
-        for framebuffer in filter(None, (self._drawn, self._resolved)):
+        for framebuffer in filter(None, (self.drawn, self._resolved)):
             for attachment in (*framebuffer.color_attachments, framebuffer.depth_attachment):
                 if attachment is not None:
                     attachment.release()
             release_framebuffer(self._context, framebuffer)
 
 
-def shading_inputs(targets: Targets) -> ShadingInputs:
-    """Read all of `INPUT_TARGETS`."""
+def shading_inputs(first: Targets, second: Targets | None) -> ShadingInputs:
+    """Read all of `INPUT_TARGETS`, and of `LAYER_INPUT_TARGETS` what was drawn."""
     values: dict[str, NDArray[np.generic]] = {}
     for index, (colour, scalar) in enumerate(INPUT_TARGETS):
-        pixels = targets.read(index)
+        pixels = first.read(index)
         values[colour], values[scalar] = pixels[..., :3].copy(), pixels[..., 3].copy()
-    nothing = np.zeros_like(values["colour"])
-    for colour, scalar in LAYER_INPUT_TARGETS:
-        values[colour] = nothing
+    for index, (colour, scalar) in enumerate(LAYER_INPUT_TARGETS):
+        pixels = np.zeros_like(pixels) if second is None else second.read(index)
+        values[colour] = pixels[..., :3].copy()
         if scalar:
-            values[scalar] = nothing[..., 0]
+            values[scalar] = pixels[..., 3].copy()
     values["material"] = np.rint(values["material"]).astype(np.int32) - 1
     return ShadingInputs(**values)  # type: ignore[arg-type]

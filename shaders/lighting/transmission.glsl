@@ -17,7 +17,7 @@ uniform mat4 u_view_projection;
 uniform vec4 u_view_axis;       // (forward, offset): depth along the view's axis = dot with (position, 1)
 uniform float u_pixel_scale;    // pixels to a metre at a depth of 1 m, for parallel rays at every depth
 uniform vec4 u_backdrop;        // colour behind the scene; w = 0: the environment
-uniform float u_behind_blur;    // perceptual roughness with which the background shows the environment
+uniform float u_background_blur;  // perceptual roughness with which the background shows the environment
 uniform mat3 u_world_to_mesh;
 
 const int LOBE_TAPS = 16;
@@ -123,7 +123,7 @@ vec3 behind_scene(Passage passage, bool is_bent) {
         return u_backdrop.rgb;
     }
 #ifdef HAS_IMAGE_LIGHT
-    float roughness = is_bent ? passage.roughness : max(passage.roughness, u_behind_blur);
+    float roughness = is_bent ? passage.roughness : max(passage.roughness, u_background_blur);
     return environment_radiance(passage.direction, roughness, is_bent ? passage.spread_rad : 0.0);
 #else
     return vec3(0.0);

@@ -1,0 +1,80 @@
+"""From primitives and plans to draws: programs, vertices, numbers and textures."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, Final
+
+from gltf_iri.material.interface import material_textures, material_uniforms
+from gltf_iri.material.material import DEFAULT_MATERIAL, Material
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.permutation import permutation, primitive_effects
+from gltf_iri.rendering.draw import Draw, Shader
+from gltf_iri.rendering.geometry import GeometryStore, placement_uniforms
+from gltf_iri.rendering.programs import ProgramStore
+from gltf_iri.rendering.switches import LAYER_INPUTS, SHADING_INPUTS
+from gltf_iri.rendering.textures import TextureStore
+from gltf_iri.scene.model import Primitive, Scene
+
+if TYPE_CHECKING:
+    import moderngl
+
+__all__ = ["FIRST_INPUTS", "PICTURE", "SECOND_INPUTS", "needed_targets", "prepare_draws"]
+
+# What a frame is drawn into.
+PICTURE: Final = "picture"
+FIRST_INPUTS: Final = "first inputs"
+SECOND_INPUTS: Final = "second inputs"
+
+_SWITCHES: Final[Mapping[str, tuple[str, ...]]] = {
+    PICTURE: (),
+    FIRST_INPUTS: (SHADING_INPUTS,),
+    SECOND_INPUTS: (LAYER_INPUTS,),
+}
+
+# The effects that `LAYER_INPUT_TARGETS` speak of.
+_LAYERS: Final = (Effect.TRANSMISSION, Effect.CLEARCOAT, Effect.SHEEN, Effect.ANISOTROPY)
+
+
+def needed_targets(scene: Scene, plans: Sequence[MaterialPlan], *, with_inputs: bool) -> tuple[str, ...]:
+    """Return what to draw `scene` into; the second inputs only where a material fills them."""
+    if not with_inputs:
+        return (PICTURE,)
+    used = [_plan_of(primitive, plans)[1] for primitive in scene.primitives]
+    has_layers = any(plan.calls_for(effect) for plan in used for effect in _LAYERS)
+    return (PICTURE, FIRST_INPUTS, SECOND_INPUTS) if has_layers else (PICTURE, FIRST_INPUTS)
+
+
+def prepare_draws(
+    scene: Scene,
+    plans: Sequence[MaterialPlan],
+    materials: Sequence[Material],
+    surroundings: Collection[Effect],
+    targets: Sequence[str],
+    programs: ProgramStore,
+    geometry: GeometryStore,
+    textures: TextureStore,
+    uniforms: Mapping[str, Any],
+    light: Mapping[str, moderngl.Texture],
+) -> Iterator[Draw]:
+    """Yield a draw for each primitive; `uniforms` and `light` are those that all of them share.
+
+    Raises MissingCapabilityError for more or larger textures than OpenGL takes.
+    """
+    for primitive in scene.primitives:
+        number, plan = _plan_of(primitive, plans)
+        material = Material() if plan.index == DEFAULT_MATERIAL else materials[plan.index]
+        defines = permutation(plan, primitive_effects(primitive), surroundings)
+        shaders = {}
+        for target in targets:
+            program = programs.get((*defines, *_SWITCHES[target]), material=plan.name or str(plan.index))
+            shaders[target] = Shader(program, geometry.vertex_array(primitive, program))
+        own = placement_uniforms(primitive) | {"u_material": number} | material_uniforms(material, defines)
+        sampled = {name: textures.get(b) for name, b in material_textures(material, defines).items()}
+        yield Draw(primitive, plan, shaders, {**uniforms, **own}, {**light, **sampled})
+
+
+def _plan_of(primitive: Primitive, plans: Sequence[MaterialPlan]) -> tuple[int, MaterialPlan]:
+    """Return the place of the primitive's plan among `plans`, and the plan."""
+    return next((i, plan) for i, plan in enumerate(plans) if plan.index == primitive.material)
