@@ -44,7 +44,8 @@ def test_the_package_imports_only_what_it_declares() -> None:
 
 
 def test_the_tests_import_only_what_is_declared() -> None:
-    extra = PROJECT["optional-dependencies"]["test"]
+    extras = PROJECT["optional-dependencies"]
+    extra = extras["test"] + extras["mitsuba"]
     modules = (ROOT / "tests").rglob("*.py")
     helpers = {path.parent.name if path.name == "__init__.py" else path.stem for path in modules}
     missing = undeclared("tests", PROJECT["dependencies"] + extra)
