@@ -9,7 +9,7 @@ OUT := out
 WORKERS ?= 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test check samples clean
+.PHONY: help demo gallery test check samples clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -19,6 +19,9 @@ demo: $(VENV)/.runtime $(VENV)/.opengl ## draw a sample and its comparison page 
 	$(BIN)/gltf-iri render $(OUT)/samples/anodised-ramp/anodised-ramp.gltf -o $(OUT)/anodised-ramp.png
 	$(BIN)/gltf-iri compare $(OUT)/samples/anodised-ramp/anodised-ramp.gltf -o $(OUT)/compare
 	@echo "Look at $(OUT)/anodised-ramp.png and open $(OUT)/compare/index.html in a browser."
+
+gallery: $(VENV)/.runtime $(VENV)/.opengl ## draw all samples, and ASSETS="folder …", onto one page in out/gallery
+	$(BIN)/gltf-iri gallery $(OUT)/gallery samples $(ASSETS)
 
 test: check $(VENV)/.opengl $(VENV)/.glslang ## check, then run every test
 	$(BIN)/python -m pytest -n $(WORKERS)

@@ -29,8 +29,9 @@ VERBS: Mapping[str, str] = MappingProxyType(
     {
         "evaluate": "Reflectance colour of a film over angles.",
         "plan": "What each material of a file calls for, what is left out, and why.",
-        "render": "Draw a file to a PNG or EXR picture, without a window.",
+        "render": "Draw a file to a picture, still or turning, without a window.",
         "compare": "Hold GLSL, Python and spectral truth against each other.",
+        "gallery": "Draw many files onto one page, with plan and error beside each.",
         "bench": "Time and error of every method.",
         "samples": "Write the sample assets.",
     }
