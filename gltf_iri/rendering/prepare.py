@@ -15,12 +15,13 @@ from gltf_iri.rendering.geometry import GeometryStore, placement_uniforms
 from gltf_iri.rendering.programs import ProgramStore
 from gltf_iri.rendering.switches import LAYER_INPUTS, SHADING_INPUTS
 from gltf_iri.rendering.textures import TextureStore
-from gltf_iri.scene.model import Primitive, Scene
+from gltf_iri.scene.model import Scene
 
 if TYPE_CHECKING:
     import moderngl
 
 __all__ = ["FIRST_INPUTS", "PICTURE", "SECOND_INPUTS", "needed_targets", "prepare_draws"]
+__all__ += ["used_plans"]
 
 # What a frame is drawn into.
 PICTURE: Final = "picture"
@@ -37,12 +38,17 @@ _SWITCHES: Final[Mapping[str, tuple[str, ...]]] = {
 _LAYERS: Final = (Effect.TRANSMISSION, Effect.CLEARCOAT, Effect.SHEEN, Effect.ANISOTROPY)
 
 
-def needed_targets(scene: Scene, plans: Sequence[MaterialPlan], *, with_inputs: bool) -> tuple[str, ...]:
-    """Return what to draw `scene` into; the second inputs only where a material fills them."""
+def used_plans(scene: Scene, plans: Sequence[MaterialPlan]) -> list[MaterialPlan]:
+    """Return those of `plans` whose materials `scene` uses."""
+    materials = {primitive.material for primitive in scene.primitives}
+    return [plan for plan in plans if plan.index in materials]
+
+
+def needed_targets(plans: Sequence[MaterialPlan], *, with_inputs: bool) -> tuple[str, ...]:
+    """Return what to draw into; the second inputs only where one of `plans` fills them."""
     if not with_inputs:
         return (PICTURE,)
-    used = [_plan_of(primitive, plans)[1] for primitive in scene.primitives]
-    has_layers = any(plan.calls_for(effect) for plan in used for effect in _LAYERS)
+    has_layers = any(plan.calls_for(effect) for plan in plans for effect in _LAYERS)
     return (PICTURE, FIRST_INPUTS, SECOND_INPUTS) if has_layers else (PICTURE, FIRST_INPUTS)
 
 
@@ -63,7 +69,7 @@ def prepare_draws(
     Raises MissingCapabilityError for more or larger textures than OpenGL takes.
     """
     for primitive in scene.primitives:
-        number, plan = _plan_of(primitive, plans)
+        number, plan = next((i, plan) for i, plan in enumerate(plans) if plan.index == primitive.material)
         material = Material() if plan.index == DEFAULT_MATERIAL else materials[plan.index]
         defines = permutation(plan, primitive_effects(primitive), surroundings)
         shaders = {}
@@ -73,8 +79,3 @@ def prepare_draws(
         own = placement_uniforms(primitive) | {"u_material": number} | material_uniforms(material, defines)
         sampled = {name: textures.get(b) for name, b in material_textures(material, defines).items()}
         yield Draw(primitive, plan, shaders, {**uniforms, **own}, {**light, **sampled})
-
-
-def _plan_of(primitive: Primitive, plans: Sequence[MaterialPlan]) -> tuple[int, MaterialPlan]:
-    """Return the place of the primitive's plan among `plans`, and the plan."""
-    return next((i, plan) for i, plan in enumerate(plans) if plan.index == primitive.material)

@@ -20,7 +20,14 @@ from gltf_iri.rendering.frame import INPUT_TARGETS, LAYER_INPUT_TARGETS, Frame
 from gltf_iri.rendering.geometry import GeometryStore
 from gltf_iri.rendering.image_light import ImageLightStore
 from gltf_iri.rendering.passes import PassTimes
-from gltf_iri.rendering.prepare import FIRST_INPUTS, PICTURE, SECOND_INPUTS, needed_targets, prepare_draws
+from gltf_iri.rendering.prepare import (
+    FIRST_INPUTS,
+    PICTURE,
+    SECOND_INPUTS,
+    needed_targets,
+    prepare_draws,
+    used_plans,
+)
 from gltf_iri.rendering.programs import ProgramStore, check_method
 from gltf_iri.rendering.punctual_lights import lights_texture
 from gltf_iri.rendering.see_through import group_sheets, sheets_in_order
@@ -94,7 +101,8 @@ class Renderer:
         textures = TextureStore(
             self.context, model.document, float_textures=float_textures, base_level_only=sharp_textures
         )
-        names = needed_targets(scene, plans, with_inputs=with_inputs)
+        used = used_plans(scene, plans)
+        names = needed_targets(used, with_inputs=with_inputs)
         times = PassTimes(self.context)
         lights = lights_texture(self.context, scene.lights)
         targets: dict[str, Targets] = {}
@@ -106,12 +114,15 @@ class Renderer:
                     samples=samples if name == PICTURE else 0,
                     count=_TARGET_COUNTS[name],
                 )
-            light = {"u_lights": lights}
+            has_sheen = any(plan.calls_for(Effect.SHEEN) for plan in used)
+            with times.measure("image light"):
+                if environment is None:
+                    light = self._image_lights.tables(with_sheen=has_sheen)
+                else:
+                    light = self._image_lights.textures(environment, with_sheen=has_sheen)
+            light = light | {"u_lights": lights}
             shared = view_uniforms(camera, size) | _surrounding_uniforms(environment)
             shared["u_light_count"] = len(scene.lights)
-            if environment is not None:
-                with times.measure("image light"):
-                    light |= self._image_lights.textures(environment)
             with times.measure("uploads"):
                 draws = list(
                     prepare_draws(
