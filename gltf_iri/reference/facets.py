@@ -10,6 +10,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.optics.microfacet import N_DOT_V_MIN
+
 __all__ = ["Axes", "draw_facet", "mirror_density", "mirrored", "refracted", "shadowing_ratio"]
 
 Float64 = NDArray[np.float64]
@@ -39,6 +41,12 @@ class Axes:
         """Return world vectors along the axes."""
         axes = (self.tangent, self.bitangent, self.normal)
         return np.stack([np.sum(vector * axis, axis=1) for axis in axes], axis=1)
+
+    def to_viewer(self, view: Float64) -> Float64:
+        """Return `view` along the axes, lifted above the horizon where normals lean past the silhouette."""
+        local = self.to_local(view)
+        local[:, 2] = np.maximum(local[:, 2], N_DOT_V_MIN)
+        return _unit(local)
 
     def to_world(self, local: Float64) -> Float64:
         """Return vectors along the axes in world space."""

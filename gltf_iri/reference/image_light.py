@@ -8,14 +8,14 @@ Combining Sampling Techniques for Monte Carlo Rendering", §3.3): L f |cos θ| /
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import fields
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN, anisotropic_alphas
+from gltf_iri.optics.microfacet import ALPHA_MIN, anisotropic_alphas
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.environment import EnvironmentMap
@@ -25,10 +25,11 @@ from gltf_iri.reference.lobes import evaluate_lobes
 from gltf_iri.reference.low_discrepancy import net, shifted, standard_error
 from gltf_iri.reference.surface import Surface
 
-__all__ = ["estimate", "reflected", "take"]
+__all__ = ["Lobes", "estimate", "reflected", "take_points"]
 
 Float64 = NDArray[np.float64]
 Int64 = NDArray[np.int64]
+Lobes = Callable[[Surface, Float64, FilmOn, MaterialPlan], Float64]
 
 # Independent estimates whose spread tells the error: seven degrees of freedom.
 _COPIES: Final = 8
@@ -66,8 +67,12 @@ def estimate(
     samples: int,
     rng: np.random.Generator,
     copies: int,
+    lobes: Lobes = evaluate_lobes,
 ) -> Float64:
-    """Return `copies` independent estimates of `reflected`'s integral, (copies, n, 3), `samples` in all."""
+    """Return `copies` independent estimates of `reflected`'s integral, (copies, n, 3), `samples` in all.
+
+    lobes : f |cos θ| in the integral, called as `evaluate_lobes` is.
+    """
     count = len(surface.position)
     estimates = np.zeros((copies, count, 3))
     if plan.calls_for(Effect.UNLIT) or not count:
@@ -77,14 +82,14 @@ def estimate(
     step = max(_CHUNK // (len(points) * techniques), 1)
     for start in range(0, count, step):
         rows = np.arange(start, min(start + step, count))
-        here = take(surface, rows)
+        here = take_points(surface, rows)
         for copy in range(copies):
-            sent = _sent(here, plan, environment, film, points, rng)
+            sent = _sent(here, plan, environment, film, points, rng, lobes)
             estimates[copy, rows] = here.occlusion[:, None] * sent
     return estimates
 
 
-def take(surface: Surface, rows: Int64) -> Surface:
+def take_points(surface: Surface, rows: Int64) -> Surface:
     """Return the points `rows` (k,) of a surface, in that order."""
     return Surface(**{field.name: getattr(surface, field.name)[rows] for field in fields(Surface)})
 
@@ -96,11 +101,12 @@ def _sent(
     film: FilmOn,
     points: NDArray[np.uint32],
     rng: np.random.Generator,
+    lobes: Lobes,
 ) -> Float64:
     """Return one estimate (n, 3), each technique drawing one net of `points` (k, 2) a surface point."""
     count, per_point = len(surface.position), len(points)
     rows = np.repeat(np.arange(count), per_point)
-    repeated = take(surface, rows)
+    repeated = take_points(surface, rows)
     techniques = list(_techniques(repeated, plan, environment))
     total = np.zeros((count, 3))
     for technique in techniques:
@@ -111,9 +117,9 @@ def _sent(
         if plan.calls_for(Effect.CLEARCOAT):
             is_lit |= np.sum(repeated.clearcoat_normal * direction, axis=1) > 0.0
         lit = np.flatnonzero(is_lit)
-        here = take(repeated, lit)
+        here = take_points(repeated, lit)
         towards_light = direction[lit]
-        f = evaluate_lobes(here, towards_light, FilmOn(here, film.film_ior, film.method), plan)
+        f = lobes(here, towards_light, FilmOn(here, film.film_ior, film.method), plan)
         value = f * environment.radiance(towards_light) / density[lit, None]
         for channel in range(3):
             total[:, channel] += np.bincount(rows[lit], value[:, channel], count)
@@ -128,11 +134,8 @@ class _Sky:
 
 class _Facets:
     def __init__(self, axes: Axes, view: Float64, alpha_t: Float64, alpha_b: Float64) -> None:
-        local = axes.to_local(view)
-        # Interpolated normals lean past the silhouette; facets are drawn for a viewer just above the horizon.
-        local[:, 2] = np.maximum(local[:, 2], N_DOT_V_MIN)
         self._axes, self._widths = axes, (alpha_t, alpha_b)
-        self._view = local / np.linalg.norm(local, axis=1, keepdims=True)
+        self._view = axes.to_viewer(view)
 
     def sample(self, place: Float64) -> Float64:
         return self._axes.to_world(mirrored(self._view, draw_facet(self._view, *self._widths, place)))
