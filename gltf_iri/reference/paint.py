@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.method import DEFAULT_METHOD
 from gltf_iri.reference.cutout import coverage
 from gltf_iri.reference.environment import EnvironmentMap
 from gltf_iri.reference.film import FilmOn
 from gltf_iri.reference.gather import gather_surface
+from gltf_iri.reference.glass import Scenery, Traced, trace_glass
 from gltf_iri.reference.image_light import reflected
 from gltf_iri.reference.points import gather_points
 from gltf_iri.reference.rays import camera_rays
@@ -63,11 +65,18 @@ class Tile:
     material: Int64  # (n,)
     depth_m: Float64  # (n,)
     standard_error: Float64  # (n, 3)
+    lost: Float64  # (n,), share of a white environment that paths through glass gave up
 
     @classmethod
     def blank(cls, count: int) -> Tile:
         """Return a tile on which nothing was drawn."""
-        return cls(np.zeros((count, 4)), np.full(count, -1), np.full(count, np.inf), np.zeros((count, 3)))
+        return cls(
+            np.zeros((count, 4)),
+            np.full(count, -1),
+            np.full(count, np.inf),
+            np.zeros((count, 3)),
+            np.zeros(count),
+        )
 
 
 class Painter:
@@ -79,10 +88,18 @@ class Painter:
         blended = [plan.calls_for(Effect.ALPHA_BLEND) for plan in job.stage.plans]
         self._is_blended = np.asarray(blended) & job.is_blending
         self._slots = np.asarray(job.stage.slots)
-
         self._environment: EnvironmentMap | None = None
         if job.environment is not None and job.lighting != "punctual":
             self._environment = EnvironmentMap(job.environment)
+        self._scenery = Scenery(
+            self._tracer,
+            job.stage,
+            self._environment,
+            job.environment.backdrop if job.environment is not None else None,
+            () if job.lighting == "image" else job.stage.scene.lights,
+            self._film_on,
+            job.is_blending,
+        )
 
     def paint(self, index: int, rows: tuple[int, int]) -> Tile:
         """Return tile number `index`, which covers `rows` (first, one past the last)."""
@@ -97,12 +114,15 @@ class Painter:
             left, hits = left[hits.valid], _only(hits, hits.valid)
             if not len(left):
                 break
-            colour, error = self._colours(hits, directions[left], rng)
+            sent = self._colours(hits, directions[left], rng)
             alpha = self._alpha(hits)
             share = (1.0 - tile.rgba[left, 3]) * alpha
-            tile.rgba[left, :3] += share[:, None] * colour
+            tile.rgba[left, :3] += share[:, None] * sent.colour
             tile.rgba[left, 3] += share
-            tile.standard_error[left] = np.hypot(tile.standard_error[left], share[:, None] * error)
+            tile.lost[left] += share * sent.lost
+            tile.standard_error[left] = np.hypot(
+                tile.standard_error[left], share[:, None] * sent.standard_error
+            )
             position = origins[left] + hits.distance[:, None] * directions[left]
             depth_m = -(position @ job.camera.view[2, :3] + job.camera.view[2, 3])
             is_first = tile.material[left] < 0
@@ -122,38 +142,47 @@ class Painter:
             alpha[rows] = np.clip(coverage(self._job.stage, *found), 0.0, 1.0)
         return alpha
 
-    def _colours(self, hits: Hits, directions: Float64, rng: np.random.Generator) -> tuple[Float64, Float64]:
-        """Return linear colours and their standard errors, (n, 3) each; all of `hits` must be valid."""
-        colour, error = np.zeros_like(directions), np.zeros_like(directions)
+    def _colours(self, hits: Hits, directions: Float64, rng: np.random.Generator) -> Traced:
+        """Return what valid hits send back along rays of these directions, (n, 3)."""
+        sent = Traced(np.zeros_like(directions), np.zeros_like(directions), np.zeros(len(directions)))
         slots = self._slots[hits.primitive]
         for slot in np.unique(slots):
             rows = np.flatnonzero(slots == slot)
-            here = _only(hits, rows)
-            points = gather_points(
-                self._job.stage.scene, here.primitive, here.triangle, here.barycentric, here.is_front
-            )
-            surface = gather_surface(self._job.stage, int(slot), points, -directions[rows])
-            colour[rows], error[rows] = self._shade(int(slot), surface, rng)
-        return colour, error
+            here = self._material_colours(int(slot), _only(hits, rows), directions[rows], rng)
+            sent.colour[rows], sent.standard_error[rows] = here.colour, here.standard_error
+            sent.lost[rows] = here.lost
+        return sent
 
-    def _shade(self, slot: int, surface: Surface, rng: np.random.Generator) -> tuple[Float64, Float64]:
-        job = self._job
-        plan, material = job.stage.plans[slot], job.stage.materials[slot]
-        exact = np.zeros_like(surface.base_color)
+    def _material_colours(
+        self, slot: int, hits: Hits, directions: Float64, rng: np.random.Generator
+    ) -> Traced:
+        job, plan = self._job, self._job.stage.plans[slot]
+        nothing = np.zeros_like(directions)
+        if plan.calls_for(Effect.TRANSMISSION) and job.lighting != "punctual":
+            return trace_glass(
+                self._scenery, directions, hits, paths=job.paths, depth=job.path_depth, rng=rng
+            )
+        points = gather_points(
+            job.stage.scene, hits.primitive, hits.triangle, hits.barycentric, hits.is_front
+        )
+        surface = gather_surface(job.stage, slot, points, -directions)
         if plan.calls_for(Effect.UNLIT):
-            return surface.base_color, exact
-        film_ior = (material.iridescence or Iridescence()).film_ior
-        name = job.film_method or plan.method or "spectral"
-        film = FilmOn(surface, film_ior, partial(evaluate, name, white=job.white))
-        colour = emitted(surface, plan)
-        if job.lighting != "image":
-            colour = colour + punctual_light(surface, job.stage.scene.lights, film, plan)
+            return Traced(surface.base_color, nothing, nothing[:, 0])
+        film = self._film_on(slot, surface)
+        colour = emitted(surface, plan) + punctual_light(surface, self._scenery.lights, film, plan)
         if self._environment is None:
-            return colour, exact
+            return Traced(colour, nothing, nothing[:, 0])
         reflection, error = reflected(
             surface, plan, self._environment, film, samples=job.image_samples, rng=rng
         )
-        return colour + reflection, error
+        return Traced(colour + reflection, error, nothing[:, 0])
+
+    def _film_on(self, slot: int, surface: Surface) -> FilmOn:
+        job, plan = self._job, self._job.stage.plans[slot]
+        film_ior = (job.stage.materials[slot].iridescence or Iridescence()).film_ior
+        # Without a film there is no method, and none is ever called.
+        method = job.film_method or plan.method or DEFAULT_METHOD
+        return FilmOn(surface, film_ior, partial(evaluate, method, white=job.white))
 
 
 def _only(hits: Hits, rows: NDArray[np.bool_] | Int64) -> Hits:

@@ -109,13 +109,14 @@ def render_reference(
         pixels = slice(rows[index][0] * width, rows[index][1] * width)
         whole.rgba[pixels], whole.material[pixels] = tile.rgba, tile.material
         whole.depth_m[pixels], whole.standard_error[pixels] = tile.depth_m, tile.standard_error
+        whole.lost[pixels] = tile.lost
         advance()
     return ReferenceFrame(
         whole.rgba.reshape(height, width, 4),
         whole.material.reshape(height, width),
         whole.depth_m.reshape(height, width),
         whole.standard_error.reshape(height, width, 3),
-        tuple(_notes(job)),
+        (*_notes(job), *_losses(whole, path_depth)),
     )
 
 
@@ -150,3 +151,13 @@ def _notes(job: Job) -> Iterator[str]:
         yield "Image light is not occluded by the scene, as in the rasteriser."
     if not job.is_blending and any(plan.calls_for(Effect.ALPHA_BLEND) for plan in plans):
         yield "Blended materials are drawn as if opaque."
+
+
+def _losses(whole: Tile, path_depth: int) -> Iterator[str]:
+    seen = whole.lost > 0.0
+    if seen.any():
+        mean, most = 100.0 * whole.lost[seen].mean(), 100.0 * whole.lost.max()
+        yield (
+            f"Paths through glass end after {path_depth} surfaces: it makes {int(seen.sum())} pixels darker, "
+            f"under a white environment by {mean:.2g} % on average and {most:.2g} % at most."
+        )
