@@ -52,3 +52,34 @@ def test_a_picture_without_rough_pixels_is_said_to_be_unjudged(gl_context, tmp_p
     bubble = ROOT / "samples" / "soap-bubble" / "soap-bubble.glb"
     assert run(["compare", str(bubble), "-o", str(tmp_path / "out"), "--size", "24x16"]) == 0
     assert "note: No pixel is rough enough to be judged" in capsys.readouterr().err
+
+
+def test_rays_are_cast_where_they_are_asked_for(gl_context, tmp_path, capsys):
+    arguments = ["compare", str(PEARL), "-o", str(tmp_path), "--size", "24x16", "--json", "--exposure", "0"]
+    assert run([*arguments, "--reference", "--samples", "8", "--paths", "2"]) == 0
+    printed = json.loads(capsys.readouterr().out)
+    held = printed["reference"]
+    assert held["agrees"] and held["same_problem"]["rough"]["pixels"] > 50
+    assert held["lights"] == "the scene's own"
+    assert held["samples"] == {"image_samples": 8, "paths": 2}
+    assert Path(printed["files"]["difference_reference"]).is_file()
+
+
+def test_a_scene_without_lights_is_lit_by_a_rig_and_told_so(gl_context, tmp_path, capsys):
+    arguments = ["compare", str(OIL / "oil-on-metal.gltf"), "-o", str(tmp_path), "--size", "24x16"]
+    assert run([*arguments, "--reference", "--samples", "8"]) == 0
+    told = capsys.readouterr()
+    assert "lit by a rig of three" in told.err
+    assert "Against the CPU reference" in told.out
+
+
+def test_numbers_of_the_reference_are_refused_without_it(tmp_path, capsys):
+    assert run(["compare", str(PEARL), "-o", str(tmp_path), "--samples", "8"]) == 2
+    assert capsys.readouterr().err == "gltf-iri: --samples and --paths are the reference's: add --reference.\n"
+
+
+def test_without_embree_the_command_says_what_to_install(gl_context, tmp_path, capsys, monkeypatch):
+    monkeypatch.setitem(sys.modules, "embreex.mesh_construction", None)
+    assert run(["compare", str(PEARL), "-o", str(tmp_path / "out"), "--size", "24x16", "--reference"]) == 3
+    assert "pip install 'gltf-iri[reference]'" in capsys.readouterr().err
+    assert not (tmp_path / "out").exists()
