@@ -1,4 +1,4 @@
-"""Draws samples.png, the picture of the README: `python spec/figures/samples.py` in a checkout."""
+"""Draws the README's pictures: `python spec/figures/samples.py` in a checkout."""
 
 from __future__ import annotations
 
@@ -6,46 +6,35 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 import gltf_iri
-from gltf_iri.rendering.picture import display_pixels
+from gltf_iri.rendering.picture import display_pixels, webp_bytes
+from gltf_iri.scene.choose import choose_environment
+from gltf_iri.scene.exposure import automatic_exposure
 
 __all__ = ["main"]
 
 ROOT = Path(__file__).resolve().parents[2]
-CELL = (240, 180)  # pixels
+SIZE = (480, 360)  # pixels
+OVERSAMPLED = 2  # fine normals sparkle at one shaded sample a pixel
 
-# Row by row: asset, image light, exposure in EV, cells across.
-ROWS = (
-    (
-        ("soap-bubble/soap-bubble.glb", "studio", -0.3, 1),
-        ("oil-on-metal/oil-on-metal.gltf", "studio", -0.3, 1),
-        ("pearl/pearl.glb", "studio", -0.3, 1),
-        ("beetle/beetle.glb", "studio", -0.3, 1),
-    ),
-    (
-        ("anodised-ramp/anodised-ramp.gltf", "studio", -0.3, 2),
-        ("thickness-swatches/thickness-swatches.gltf", "white", 0.0, 1),
-        ("angle-fan/angle-fan.glb", "white", 0.0, 1),
-    ),
-)
+ASSETS = ("soap-bubble/soap-bubble.glb", "beetle/beetle.glb", "anodised-ramp/anodised-ramp.gltf")
 
 
-def draw(asset: str, light: str, exposure: float, across: int) -> NDArray[np.uint8]:
-    """Return one cell as 8-bit sRGB, (height, width, 3); a wide one is the middle of a taller picture."""
-    size = (CELL[0] * across, CELL[1] * across)
+def draw(asset: str) -> NDArray[np.uint8]:
+    """Return the asset as `gltf-iri render` shows it, 8-bit sRGB, (height, width, 3)."""
+    width, height = SIZE
     model = gltf_iri.load(ROOT / "samples" / asset)
-    frame = gltf_iri.render(model, size=size, camera=0, environment=light)
-    tonemap = "none" if light == "white" else "neutral"
-    top = (size[1] - CELL[1]) // 2
-    return display_pixels(frame.rgba, exposure, tonemap)[top : top + CELL[1], :, :3]
+    studio = choose_environment("studio")
+    frame = gltf_iri.render(model, size=(width * OVERSAMPLED, height * OVERSAMPLED), environment=studio)
+    rgba = frame.rgba.reshape(height, OVERSAMPLED, width, OVERSAMPLED, 4).mean(axis=(1, 3))
+    return display_pixels(rgba, automatic_exposure(model.scene(), studio), "neutral")
 
 
 def main() -> None:
-    """Draw every sample once and put the cells together."""
-    rows = [np.concatenate([draw(*cell) for cell in row], axis=1) for row in ROWS]
-    Image.fromarray(np.concatenate(rows)).save(Path(__file__).with_name("samples.png"), optimize=True)
+    """Draw each asset into a file of its own, beside this one."""
+    for asset in ASSETS:
+        Path(__file__).with_name(f"{Path(asset).stem}.webp").write_bytes(webp_bytes(draw(asset)))
 
 
 if __name__ == "__main__":
