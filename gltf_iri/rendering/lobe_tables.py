@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 __all__ = ["compute_dfg_table", "compute_sheen_table"]
 
 _DFG_SIZE: Final = (128, 128)
-_SHEEN_SIZE: Final = (64, 64)
+_SHEEN_SIZE: Final = (128, 64)
 
 
 def compute_dfg_table(context: moderngl.Context) -> moderngl.Texture:

@@ -1,11 +1,11 @@
-// The environment as smooth facets mirror it: one layer a roughness, layers one below the other.
-// Karis 2013, "Real Shading in Unreal Engine 4" (N = V = R, weights N·L); Křivánek & Colbert 2008, "Real-time Shading
-// with Filtered Importance Sampling" (each sample reads the level whose texels are as large as its share of the lobe).
+// The environment as a lobe sees it: a layer for each row of rays, layers one below the other.
+// Karis 2013, "Real Shading in Unreal Engine 4" (N = V = R); Křivánek & Colbert 2008, "Real-time Shading with Filtered
+// Importance Sampling" (each ray reads the level whose texels are as large as its share of the lobe).
 
 #include "lighting/equirect.glsl"
 
 uniform sampler2D u_environment;  // with solid-angle weighted levels
-uniform sampler2D u_samples;      // one row a layer: direction about +Z, steradians to average over
+uniform sampler2D u_samples;      // direction about +Z, steradians to average over
 uniform ivec2 u_layer_size;
 
 out vec4 out_radiance;
@@ -19,18 +19,14 @@ void main() {
     vec2 size = vec2(textureSize(u_environment, 0));
     float texel_solid_angle = 2.0 * sq(PI) / (size.x * size.y);  // on the equator
 
+    int count = textureSize(u_samples, 0).x;
     vec3 sum = vec3(0.0);
-    float weight = 0.0;
-    for (int i = 0; i < textureSize(u_samples, 0).x; ++i) {
+    for (int i = 0; i < count; ++i) {
         vec4 ray = texelFetch(u_samples, ivec2(i, layer), 0);
-        if (ray.z > 0.0) {
-            vec3 direction = frame * ray.xyz;
-            // Towards the poles texels shrink; the floor keeps the level finite where they vanish.
-            float shrink = max(length(direction.xz), 1.0 / size.y);
-            float level = max(0.5 * log2(ray.w / texel_solid_angle), 0.0);
-            sum += ray.z * textureLod(u_environment, equirect_from_direction(direction), level).rgb;
-            weight += ray.z;
-        }
+        // Towards the poles texels shrink across only: what a ray then misses beside it is less than what it would
+        // blur along a meridian in a level that covers its whole share.
+        float level = max(0.5 * log2(ray.w / texel_solid_angle), 0.0);
+        sum += textureLod(u_environment, equirect_from_direction(frame * ray.xyz), level).rgb;
     }
-    out_radiance = vec4(sum / weight, 1.0);
+    out_radiance = vec4(sum / float(count), 1.0);
 }

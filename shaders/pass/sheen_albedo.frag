@@ -3,14 +3,15 @@
 
 #include "common/math.glsl"
 #include "generated/constants.glsl"
-#include "lighting/dfg.glsl"
+#include "lighting/sheen_albedo.glsl"
 #include "optics/sheen.glsl"
 
 uniform vec2 u_size;
 
 out float out_albedo;
 
-// N·L in two panels, because the fit bends at ½; t⁶ crowds the steps where it is steep, at N·L = 0 and 1.
+// N·L in two panels, because the fit bends at ½, by midpoints of s with t = s²(3 − 2s), whose ends weigh nothing;
+// N·L = ½ t³ and 1 − ½ t³ crowd the steps where the fit is steep, at 0 and 1.
 const int COSINE_STEPS = 32;
 const int TURN_STEPS = 48;  // over half a turn: the other half mirrors it
 
@@ -26,15 +27,16 @@ float albedo_from(float n_dot_l, float n_dot_v, float alpha) {
 }
 
 void main() {
-    vec2 arguments = dfg_arguments(gl_FragCoord.xy, u_size);
+    vec2 arguments = sheen_arguments(gl_FragCoord.xy, u_size);
     float n_dot_v = max(arguments.x, N_DOT_V_MIN);
-    float alpha = max(sq(arguments.y), SHEEN_ALPHA_MIN);
+    float alpha = sheen_alpha(arguments.y);
     float sum = 0.0;
     for (int i = 0; i < COSINE_STEPS; ++i) {
-        float t = (float(i) + 0.5) / float(COSINE_STEPS);
-        float t5 = pow5(t);
-        float grazing = 0.5 * t5 * t;
-        sum += 3.0 * t5 * (albedo_from(grazing, n_dot_v, alpha) + albedo_from(1.0 - grazing, n_dot_v, alpha));
+        float s = (float(i) + 0.5) / float(COSINE_STEPS);
+        float t = sq(s) * (3.0 - 2.0 * s);
+        float grazing = 0.5 * t * sq(t);
+        float share = 1.5 * sq(t) * 6.0 * s * (1.0 - s);
+        sum += share * (albedo_from(grazing, n_dot_v, alpha) + albedo_from(1.0 - grazing, n_dot_v, alpha));
     }
     out_albedo = min(sum / float(COSINE_STEPS), 1.0);
 }
