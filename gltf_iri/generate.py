@@ -14,7 +14,7 @@ from types import MappingProxyType
 from gltf_iri.colour.tables import D65_FILE, OBSERVER_FILE, d65_csv, observer_csv
 from gltf_iri.material.interface import interface_glsl
 from gltf_iri.material.property_table import properties_markdown
-from gltf_iri.rendering.constants import constants_glsl, film_constants_glsl
+from gltf_iri.rendering.constants import constants_glsl, film_constants_glsl, layer_constants_glsl
 
 __all__ = ["GENERATED", "main", "stale_files", "write_files"]
 
@@ -23,6 +23,7 @@ GENERATED: Mapping[str, Callable[[], str]] = MappingProxyType(
     {
         "shaders/generated/constants.glsl": constants_glsl,
         "shaders/generated/film_constants.glsl": film_constants_glsl,
+        "shaders/generated/layer_constants.glsl": layer_constants_glsl,
         "shaders/generated/material.glsl": interface_glsl,
         f"gltf_iri/colour/data/{D65_FILE}": d65_csv,
         f"gltf_iri/colour/data/{OBSERVER_FILE}": observer_csv,

@@ -10,6 +10,7 @@ B.2. Twin: shaders/material/layering.glsl. Colours are (..., 3), everything else
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +18,7 @@ from numpy.typing import ArrayLike, NDArray
 from gltf_iri.optics.fresnel import f_schlick
 
 __all__ = [
+    "CLEARCOAT_F0",
     "Layer",
     "conductor_fresnel",
     "fresnel_mix",
@@ -28,6 +30,9 @@ __all__ = [
 ]
 
 Float64 = NDArray[np.float64]
+
+# Of a varnish of index 1.5 under air (KHR_materials_clearcoat).
+CLEARCOAT_F0: Final = 0.04
 
 
 @dataclass(frozen=True, slots=True)

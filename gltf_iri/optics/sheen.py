@@ -18,6 +18,8 @@ from gltf_iri.optics.microfacet import N_DOT_V_MIN
 
 __all__ = [
     "SHEEN_ALPHA_MIN",
+    "SHEEN_FIT_AT_0",
+    "SHEEN_FIT_AT_1",
     "d_charlie",
     "integrate_sheen",
     "lambda_sheen",
@@ -34,8 +36,8 @@ Float64 = NDArray[np.float64]
 SHEEN_ALPHA_MIN: Final = 5e-3
 
 # a, b, c, d, e of the masking's fit at α = 0 and at α = 1 (Estevez & Kulla 2017, table in section 3).
-_FIT_AT_0: Final = (25.3245, 3.32435, 0.16801, -1.27393, -4.85967)
-_FIT_AT_1: Final = (21.5473, 3.82987, 0.19823, -1.97760, -4.32054)
+SHEEN_FIT_AT_0: Final = (25.3245, 3.32435, 0.16801, -1.27393, -4.85967)
+SHEEN_FIT_AT_1: Final = (21.5473, 3.82987, 0.19823, -1.97760, -4.32054)
 
 # Gauss points over N·L, for each of two panels, and over half a turn: 1e-6 at the worst place.
 _COSINES: Final = 32
@@ -71,7 +73,7 @@ def lambda_sheen(cos_theta: ArrayLike, alpha: ArrayLike) -> Float64:
     """
     cosine, a = np.asarray(cos_theta, np.float64), np.asarray(alpha, np.float64)
     share = (1.0 - a) ** 2
-    fit = [one + share * (zero - one) for zero, one in zip(_FIT_AT_0, _FIT_AT_1, strict=True)]
+    fit = [one + share * (zero - one) for zero, one in zip(SHEEN_FIT_AT_0, SHEEN_FIT_AT_1, strict=True)]
 
     def exponent(x: ArrayLike) -> Float64:
         return np.asarray(fit[0] / (1.0 + fit[1] * np.asarray(x) ** fit[2]) + fit[3] * np.asarray(x) + fit[4])

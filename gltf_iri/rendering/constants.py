@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from gltf_iri.colour.sensitivity import GAUSSIANS, SENSITIVITY_WHITE, Gaussian
 from gltf_iri.colour.spaces import XYZ_TO_REC709
 from gltf_iri.evaluation import khr, khr_guarded
-from gltf_iri.optics import microfacet
+from gltf_iri.optics import layering, microfacet, sheen
 from gltf_iri.rendering import environment_light
 from gltf_iri.scene import light
 
-__all__ = ["constants_glsl", "film_constants_glsl", "glsl_float"]
+__all__ = ["constants_glsl", "film_constants_glsl", "glsl_float", "layer_constants_glsl"]
 
 
 def constants_glsl() -> str:
@@ -70,6 +70,23 @@ def film_constants_glsl() -> str:
     )
 
 
+def layer_constants_glsl() -> str:
+    """Return the text of shaders/generated/layer_constants.glsl, which fibres and coats read."""
+    return _file(
+        "Constants of the layers over the base in Python.",
+        [
+            "// gltf_iri/optics/sheen.py",
+            _scalar("SHEEN_ALPHA_MIN", sheen.SHEEN_ALPHA_MIN),
+            _array("SHEEN_FIT_AT_0", sheen.SHEEN_FIT_AT_0),
+            _array("SHEEN_FIT_AT_1", sheen.SHEEN_FIT_AT_1),
+        ],
+        [
+            "// gltf_iri/optics/layering.py",
+            _scalar("CLEARCOAT_F0", layering.CLEARCOAT_F0),
+        ],
+    )
+
+
 def glsl_float(value: float) -> str:
     """Return a GLSL literal with the nine digits that identify a float32."""
     text = f"{value:.9g}"
@@ -83,6 +100,11 @@ def _file(about: str, *blocks: list[str]) -> str:
 
 def _scalar(name: str, value: float) -> str:
     return f"const float {name} = {glsl_float(value)};"
+
+
+def _array(name: str, values: Sequence[float]) -> str:
+    literals = ", ".join(glsl_float(value) for value in values)
+    return f"const float {name}[{len(values)}] = float[{len(values)}]({literals});"
 
 
 def _vec3(values: Iterable[float]) -> str:

@@ -1,5 +1,5 @@
-// The one place where the lobes are mixed, for punctual and for image light.
-// Sources: glTF 2.0 Appendix B.2; KHR_materials_specular.
+// The one place where the base's lobes are mixed, for punctual and for image light.
+// Sources: glTF 2.0 Appendix B.2; KHR_materials_specular; KHR_materials_transmission.
 
 #include "material/layering.glsl"
 #include "material/surface.glsl"
@@ -14,6 +14,15 @@ struct Lobe {
     float cos_theta;  // the film's outside angle
     float slope;
     float offset;
+};
+
+// What white, lossless surfaces would send to the viewer.
+struct WhiteLight {
+    vec3 diffuse;
+    vec3 specular;     // a mirror of the same roughness
+#ifdef HAS_TRANSMISSION
+    vec3 transmitted;  // a surface that reflects nothing, lit from behind
+#endif
 };
 
 Lobe facet_lobe(float v_dot_h) {
@@ -52,16 +61,21 @@ vec3 metal_reflectance(Surface s, Lobe lobe) {
 }
 #endif
 
-// Light sent to the viewer. diffuse: what a white diffuse surface would send; specular: what a white mirror of the
-// same roughness would send. Metal and dielectric are evaluated apart, then mixed.
-vec3 mix_lobes(Surface s, Lobe lobe, vec3 diffuse, vec3 specular) {
+// Light sent to the viewer. Metal and dielectric are evaluated apart, then mixed.
+vec3 mix_lobes(Surface s, Lobe lobe, WhiteLight white) {
     vec3 sent = vec3(0.0);
 #ifdef HAS_DIELECTRIC
     Layer layer = dielectric_layer(s, lobe);
-    sent += (1.0 - s.metallic) * (layer.base_weight * s.base_color * diffuse + layer.specular * specular);
+#ifdef HAS_TRANSMISSION
+    vec3 scattered = (1.0 - s.transmission) * layer.base_weight * white.diffuse;
+    vec3 passed = s.transmission * transmitted_share(layer.specular) * white.transmitted;
+    sent += (1.0 - s.metallic) * (s.base_color * (scattered + passed) + layer.specular * white.specular);
+#else
+    sent += (1.0 - s.metallic) * (layer.base_weight * s.base_color * white.diffuse + layer.specular * white.specular);
+#endif
 #endif
 #ifdef HAS_METAL
-    sent += s.metallic * metal_reflectance(s, lobe) * specular;
+    sent += s.metallic * metal_reflectance(s, lobe) * white.specular;
 #endif
     return sent;
 }

@@ -1,8 +1,9 @@
-// The shading normal: interpolated, mapped, and turned to the side that is seen. Source: glTF 2.0 §3.7.2.1, §3.9.3.
+// Directions in the surface, and normals that a map bends. Sources: glTF 2.0 §3.7.2.1, §3.9.3; KHR_materials_anisotropy;
+// KHR_materials_clearcoat.
 
 #include "generated/material.glsl"
 
-#ifdef HAS_NORMAL_TEXTURE
+#if defined(HAS_NORMAL_TEXTURE) || defined(HAS_ANISOTROPY) || defined(HAS_CLEARCOAT_NORMAL_TEXTURE)
 #ifdef HAS_TANGENTS
 // Columns tangent, bitangent, normal; the handedness says which way the bitangent points.
 mat3 tangent_frame(vec3 normal, vec4 tangent) {
@@ -20,16 +21,35 @@ mat3 tangent_frame(vec3 normal, vec3 position, vec2 uv) {
     vec3 tangent = along_u - normal * dot(normal, along_u);
     float size = length(tangent);
     if (size == 0.0) {
-        return mat3(vec3(0.0), vec3(0.0), normal);  // no texture coordinates, no bumps
+        return mat3(vec3(0.0), vec3(0.0), normal);  // no texture coordinates: no bumps and no directions
     }
     tangent /= size;
     vec3 bitangent = cross(normal, tangent);
     return mat3(tangent, dot(bitangent, along_v) > 0.0 ? -bitangent : bitangent, normal);
 }
 #endif
+#endif
 
+#ifdef HAS_NORMAL_TEXTURE
 vec3 mapped_normal(mat3 frame, vec2 uv0, vec2 uv1) {
     vec3 bump = sample_normal(uv0, uv1) * 2.0 - 1.0;
     return normalize(frame * (bump * vec3(u_normal_scale, u_normal_scale, 1.0)));
+}
+#endif
+
+#ifdef HAS_CLEARCOAT_NORMAL_TEXTURE
+vec3 mapped_clearcoat_normal(mat3 frame, vec2 uv0, vec2 uv1) {
+    vec3 bump = sample_clearcoat_normal(uv0, uv1) * 2.0 - 1.0;
+    return normalize(frame * (bump * vec3(u_clearcoat_normal_scale, u_clearcoat_normal_scale, 1.0)));
+}
+#endif
+
+#ifdef HAS_ANISOTROPY
+// The direction of the frame that (x, y) names, laid upright against n; 0 where the frame has none.
+vec3 tangent_along(mat3 frame, vec2 direction, vec3 n) {
+    vec3 tangent = frame[0] * direction.x + frame[1] * direction.y;
+    tangent -= n * dot(n, tangent);
+    float size = length(tangent);
+    return size > 0.0 ? tangent / size : vec3(0.0);
 }
 #endif

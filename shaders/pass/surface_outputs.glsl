@@ -1,16 +1,46 @@
 // What a pixel receives: the colour, and where it is asked for, everything that the pixel was shaded with.
-// The targets are those of INPUT_TARGETS in gltf_iri/rendering/frame.py, in its order.
+// The targets are those of INPUT_TARGETS and LAYER_INPUT_TARGETS in gltf_iri/rendering/frame.py, in its order.
 
+#include "lighting/view.glsl"
 #include "material/surface.glsl"
 
-// Image light as it reached the surface, occlusion included.
+// Image light as it reached the surface, occlusion included, and what white lobes send of it.
 struct ImageLight {
     vec3 radiance;    // prefiltered, along the mirror direction
     vec3 irradiance;  // divided by π
     vec2 dfg;         // (A, B)
+#ifdef HAS_TRANSMISSION
+    vec3 transmitted;  // from behind; not occluded
+#endif
+#ifdef HAS_SHEEN
+    vec3 sheen_radiance;  // prefiltered with the fibres' lobe
+    float sheen_albedo;
+#endif
+#ifdef HAS_CLEARCOAT
+    vec3 clearcoat_radiance;  // prefiltered, along the coat's mirror direction
+    vec2 clearcoat_dfg;
+#endif
 };
 
-#ifdef SHADING_INPUTS
+ImageLight no_image_light() {
+    ImageLight image;
+    image.radiance = image.irradiance = vec3(0.0);
+    image.dfg = vec2(0.0);
+#ifdef HAS_TRANSMISSION
+    image.transmitted = vec3(0.0);
+#endif
+#ifdef HAS_SHEEN
+    image.sheen_radiance = vec3(0.0);
+    image.sheen_albedo = 0.0;
+#endif
+#ifdef HAS_CLEARCOAT
+    image.clearcoat_radiance = vec3(0.0);
+    image.clearcoat_dfg = vec2(0.0);
+#endif
+    return image;
+}
+
+#if defined(SHADING_INPUTS)
 uniform int u_material;  // index into the plans
 
 layout(location = 0) out vec4 out_colour_material;
@@ -22,13 +52,13 @@ layout(location = 5) out vec4 out_radiance_dfg_a;
 layout(location = 6) out vec4 out_irradiance_dfg_b;
 layout(location = 7) out vec4 out_emission_film_thickness_nm;
 
-void write_surface(Surface s, vec3 n, ImageLight image, vec3 colour) {
+void write_surface(Surface s, View w, ImageLight image, vec3 colour) {
     vec2 film = vec2(0.0);
 #ifdef HAS_IRIDESCENCE
     film = vec2(s.iridescence_factor, s.iridescence_thickness_nm);
 #endif
     out_colour_material = vec4(colour, float(u_material + 1));
-    out_normal_metallic = vec4(n, s.metallic);
+    out_normal_metallic = vec4(w.n, s.metallic);
     out_position_roughness = vec4(v_position, s.perceptual_roughness);
     out_base_color_film_factor = vec4(s.base_color, film.x);
     out_dielectric_f0_specular_weight = vec4(s.dielectric_f0, s.specular_weight);
@@ -36,10 +66,42 @@ void write_surface(Surface s, vec3 n, ImageLight image, vec3 colour) {
     out_irradiance_dfg_b = vec4(image.irradiance, image.dfg.y);
     out_emission_film_thickness_nm = vec4(s.emission, film.y);
 }
+#elif defined(LAYER_INPUTS)
+layout(location = 0) out vec4 out_transmitted_radiance_transmission;
+layout(location = 1) out vec4 out_clearcoat_normal_clearcoat;
+layout(location = 2) out vec4 out_clearcoat_radiance_clearcoat_roughness;
+layout(location = 3) out vec4 out_sheen_color_sheen_roughness;
+layout(location = 4) out vec4 out_sheen_radiance;
+layout(location = 5) out vec4 out_anisotropy_tangent_anisotropy_strength;
+layout(location = 6) out vec4 out_layer_albedos;
+
+void write_surface(Surface s, View w, ImageLight image, vec3 colour) {
+    out_transmitted_radiance_transmission = vec4(0.0);
+    out_clearcoat_normal_clearcoat = out_clearcoat_radiance_clearcoat_roughness = vec4(0.0);
+    out_sheen_color_sheen_roughness = out_sheen_radiance = vec4(0.0);
+    out_anisotropy_tangent_anisotropy_strength = vec4(0.0);
+    out_layer_albedos = vec4(0.0);
+#ifdef HAS_TRANSMISSION
+    out_transmitted_radiance_transmission = vec4(image.transmitted, s.transmission);
+#endif
+#ifdef HAS_CLEARCOAT
+    out_clearcoat_normal_clearcoat = vec4(w.coat_n, s.clearcoat);
+    out_clearcoat_radiance_clearcoat_roughness = vec4(image.clearcoat_radiance, s.clearcoat_roughness);
+    out_layer_albedos.xy = image.clearcoat_dfg;
+#endif
+#ifdef HAS_SHEEN
+    out_sheen_color_sheen_roughness = vec4(s.sheen_color, s.sheen_roughness);
+    out_sheen_radiance = vec4(image.sheen_radiance, 0.0);
+    out_layer_albedos.z = image.sheen_albedo;
+#endif
+#ifdef HAS_ANISOTROPY
+    out_anisotropy_tangent_anisotropy_strength = vec4(w.tangent, s.anisotropy_strength);
+#endif
+}
 #else
 layout(location = 0) out vec4 out_colour;  // premultiplied; alpha is coverage
 
-void write_surface(Surface s, vec3 n, ImageLight image, vec3 colour) {
+void write_surface(Surface s, View w, ImageLight image, vec3 colour) {
 #ifdef HAS_ALPHA_BLEND
     out_colour = vec4(colour * s.alpha, s.alpha);
 #else

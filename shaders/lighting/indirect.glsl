@@ -1,0 +1,69 @@
+// Light of the environment and from behind on the surface, below any coat: the split sum.
+// Karis 2013, "Real Shading in Unreal Engine 4".
+
+#include "lighting/dfg.glsl"
+#include "lighting/lobes.glsl"
+#include "lighting/view.glsl"
+#include "pass/surface_outputs.glsl"
+#ifdef HAS_IMAGE_LIGHT
+#include "lighting/environment.glsl"
+#ifdef HAS_ANISOTROPY
+#include "lighting/anisotropy.glsl"
+#endif
+#endif
+#ifdef HAS_TRANSMISSION
+#include "lighting/transmission.glsl"
+#endif
+#ifdef HAS_SHEEN
+#include "lighting/sheen.glsl"
+#endif
+
+ImageLight image_light(Surface s, View w) {
+    ImageLight image = no_image_light();
+#ifdef HAS_IMAGE_LIGHT
+    vec3 mirrored = reflect(-w.v, w.n);
+    float spread_rad = max(length(dFdx(mirrored)), length(dFdy(mirrored)));
+#ifdef HAS_ANISOTROPY
+    image.radiance = anisotropic_radiance(s, w, mirrored, spread_rad) * s.occlusion;
+#else
+    image.radiance = environment_radiance(mirrored, s.perceptual_roughness, spread_rad) * s.occlusion;
+#endif
+    image.irradiance = environment_irradiance(w.n) * s.occlusion;
+#ifdef HAS_SHEEN
+    image.sheen_radiance = environment_sheen_radiance(mirrored, s.sheen_roughness) * s.occlusion;
+#endif
+#ifdef HAS_CLEARCOAT
+    vec3 coat_mirrored = reflect(-w.v, w.coat_n);
+    float coat_spread_rad = max(length(dFdx(coat_mirrored)), length(dFdy(coat_mirrored)));
+    image.clearcoat_radiance =
+        environment_radiance(coat_mirrored, s.clearcoat_roughness, coat_spread_rad) * s.occlusion;
+#endif
+#endif
+#if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)
+    image.dfg = dfg_terms(u_dfg, w.n_dot_v, s.perceptual_roughness);
+#endif
+#ifdef HAS_TRANSMISSION
+    image.transmitted = transmitted_radiance(s, w.n, w.v);
+#endif
+#ifdef HAS_SHEEN
+    image.sheen_albedo = sheen_albedo(u_sheen_albedo, w.n_dot_v, s.sheen_roughness);
+#endif
+#ifdef HAS_CLEARCOAT
+    image.clearcoat_dfg = dfg_terms(u_dfg, w.coat_n_dot_v, s.clearcoat_roughness);
+#endif
+    return image;
+}
+
+vec3 image_lighting(Surface s, View w, ImageLight image) {
+    Lobe lobe = Lobe(w.n_dot_v, image.dfg.x, image.dfg.y);
+#ifdef HAS_TRANSMISSION
+    vec3 sent = mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance, image.transmitted));
+#else
+    vec3 sent = mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance));
+#endif
+#ifdef HAS_SHEEN
+    sent *= sheen_weight(s.sheen_color, image.sheen_albedo);
+    sent += s.sheen_color * image.sheen_albedo * image.sheen_radiance;
+#endif
+    return sent;
+}
