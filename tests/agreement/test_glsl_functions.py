@@ -10,10 +10,17 @@ from numpy.typing import NDArray
 
 from gltf_iri.colour.sensitivity import SENSITIVITY_WHITE, eval_sensitivity
 from gltf_iri.evaluation.khr_guarded import f_schlick_matched
-from gltf_iri.optics import layering
+from gltf_iri.optics import layering, sheen
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.optics.ior import fresnel0_to_ior, ior_to_fresnel0
-from gltf_iri.optics.microfacet import ALPHA_MIN, d_ggx, v_smith_ggx_correlated
+from gltf_iri.optics.microfacet import (
+    ALPHA_MIN,
+    anisotropic_alphas,
+    d_ggx,
+    d_ggx_anisotropic,
+    v_smith_ggx_anisotropic,
+    v_smith_ggx_correlated,
+)
 from gltf_iri.optics.refraction import cos_theta_2_squared
 from gltf_iri.rendering.probe import Probe, ResultType
 from gltf_iri.tolerances import GLSL_OPTICS_MAX_ABS
@@ -36,10 +43,21 @@ def decades(low: float, high: float) -> Float64:
     return np.exp(uniform(np.log(low), np.log(high))).astype(np.float32).astype(np.float64)
 
 
+def directions() -> list[Float64]:
+    """Components along tangent, bitangent and normal of random unit vectors on the lit side."""
+    cosine, turn = decades(1e-4, 1.0), uniform(-np.pi, np.pi)
+    sine = np.sqrt(1.0 - cosine**2)
+    parts = (sine * np.cos(turn), sine * np.sin(turn), cosine)
+    return [part.astype(np.float32).astype(np.float64) for part in parts]
+
+
 COLOUR = uniform(0.0, 1.0, 3)
 OTHER_COLOUR = uniform(0.0, 1.2, 3)  # a film may reflect more than 1
 COSINE = uniform(0.0, 1.0)
 STRENGTH = uniform(0.0, 1.0)
+HALF, LIGHT, VIEW = directions(), directions(), directions()
+ALPHA_T, ALPHA_B = decades(ALPHA_MIN, 1.0), decades(ALPHA_MIN, 1.0)
+SHEEN_ALPHA = decades(sheen.SHEEN_ALPHA_MIN, 1.0)
 
 CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultType]] = {
     "f_schlick": ("optics/fresnel.glsl", lambda f0, c: f_schlick(f0, c[:, None]), [COLOUR, COSINE], "vec3"),
@@ -83,6 +101,42 @@ CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultTyp
         [COSINE, decades(1e-4, 1.0), decades(ALPHA_MIN, 1.0)],
         "float",
     ),
+    "d_ggx_anisotropic": (
+        "optics/microfacet.glsl",
+        d_ggx_anisotropic,
+        [HALF[0], HALF[1], ALPHA_T, ALPHA_B],
+        "float",
+    ),
+    "d_ggx_anisotropic near the highlight": (
+        "optics/microfacet.glsl",
+        d_ggx_anisotropic,
+        [decades(1e-6, 0.5), -decades(1e-6, 0.5), ALPHA_T, ALPHA_B],
+        "float",
+    ),
+    "v_smith_ggx_anisotropic": (
+        "optics/microfacet.glsl",
+        v_smith_ggx_anisotropic,
+        [LIGHT[2], VIEW[2], LIGHT[0], LIGHT[1], VIEW[0], VIEW[1], ALPHA_T, ALPHA_B],
+        "float",
+    ),
+    "sheen_alpha": ("optics/sheen.glsl", sheen.sheen_alpha, [STRENGTH], "float"),
+    "d_charlie": ("optics/sheen.glsl", sheen.d_charlie, [COSINE, SHEEN_ALPHA], "float"),
+    "d_charlie at the horizon": (
+        "optics/sheen.glsl",
+        sheen.d_charlie,
+        [decades(1e-6, 1.0), SHEEN_ALPHA],
+        "float",
+    ),
+    "lambda_sheen": ("optics/sheen.glsl", sheen.lambda_sheen, [decades(1e-4, 1.0), SHEEN_ALPHA], "float"),
+    "lambda_sheen of any cosine": ("optics/sheen.glsl", sheen.lambda_sheen, [COSINE, SHEEN_ALPHA], "float"),
+    "v_sheen": ("optics/sheen.glsl", sheen.v_sheen, [LIGHT[2], VIEW[2], SHEEN_ALPHA], "float"),
+    "sheen_weight": ("optics/sheen.glsl", sheen.sheen_weight, [COLOUR, STRENGTH], "float"),
+    "transmitted_share": (
+        "material/layering.glsl",
+        layering.transmitted_share,
+        [uniform(-0.2, 1.3, 3)],
+        "vec3",
+    ),
     "conductor_fresnel": (
         "material/film_layering.glsl",
         layering.conductor_fresnel,
@@ -108,6 +162,15 @@ LAYERS: dict[str, tuple[Callable[..., layering.Layer], Sequence[Float64]]] = {
 }
 
 
+# Where a function is worse conditioned than reflectances are.
+TOLERANCES = {
+    # A sine's rounding, times its exponent of up to 100 and that of the power's own logarithm.
+    "d_charlie": 2e-5,
+    # a / (1 + b xᶜ) reaches 20, and e to it has 20 times its relative error.
+    "lambda_sheen": 1e-5,
+}
+
+
 def relative_error(glsl: NDArray[np.float32], python: Float64) -> Float64:
     """|difference| / max(1, |value|): absolute for reflectances, relative for the lobe and for indices."""
     return np.asarray(np.abs(glsl - python) / np.maximum(1.0, np.abs(python)))
@@ -116,8 +179,33 @@ def relative_error(glsl: NDArray[np.float32], python: Float64) -> Float64:
 @pytest.mark.parametrize("name", CASES)
 def test_glsl_function_equals_its_python_twin(name: str, probe: Probe) -> None:
     include, twin, arguments, result = CASES[name]
-    glsl = probe.call(name.split(" ")[0], include, arguments, result)
-    assert relative_error(glsl, twin(*arguments)).max() <= GLSL_OPTICS_MAX_ABS
+    function = name.split(" ")[0]
+    glsl = probe.call(function, include, arguments, result)
+    worst = relative_error(glsl, twin(*arguments)).max()
+    assert worst <= TOLERANCES.get(function, GLSL_OPTICS_MAX_ABS)
+
+
+def test_glsl_stretches_roughness_along_the_tangent_as_python_does(probe: Probe) -> None:
+    arguments = [ALPHA_T, STRENGTH]
+    glsl = probe.call("anisotropic_alphas", "optics/microfacet.glsl", arguments, "float", member="x")
+    assert relative_error(glsl, anisotropic_alphas(*arguments)[0]).max() <= GLSL_OPTICS_MAX_ABS
+
+
+def test_equal_roughness_along_and_across_is_isotropic_to_the_last_bit_of_d(probe: Probe) -> None:
+    t, b = (part.astype(np.float32) for part in HALF[:2])
+    stretched = probe.call("d_ggx_anisotropic", "optics/microfacet.glsl", [t, b, ALPHA_T, ALPHA_T], "float")
+    even = probe.call("d_ggx", "optics/microfacet.glsl", [t * t + b * b, ALPHA_T], "float")
+    np.testing.assert_array_equal(stretched, even)
+    stretched = probe.call(
+        "v_smith_ggx_anisotropic",
+        "optics/microfacet.glsl",
+        [LIGHT[2], VIEW[2], LIGHT[0], LIGHT[1], VIEW[0], VIEW[1], ALPHA_T, ALPHA_T],
+        "float",
+    )
+    even = probe.call(
+        "v_smith_ggx_correlated", "optics/microfacet.glsl", [LIGHT[2], VIEW[2], ALPHA_T], "float"
+    )
+    np.testing.assert_allclose(stretched, even, rtol=2e-6)
 
 
 @pytest.mark.parametrize("name", LAYERS)
