@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.planning.effects import Effect
-from gltf_iri.planning.method import DEFAULT_METHOD
+from gltf_iri.planning.method import DEFAULT_METHOD, find_method
 from gltf_iri.reference.cutout import coverage
+from gltf_iri.reference.edges import edge_distance_px
 from gltf_iri.reference.environment import EnvironmentMap
-from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.film import FilmMethod, FilmOn
+from gltf_iri.reference.film_table import TabulatedFilm
 from gltf_iri.reference.gather import gather_surface
 from gltf_iri.reference.glass import Scenery, Traced, trace_glass
 from gltf_iri.reference.image_light import reflected
@@ -65,17 +67,19 @@ class Tile:
     material: Int64  # (n,)
     depth_m: Float64  # (n,)
     standard_error: Float64  # (n, 3)
+    edge_px: Float64  # (n,)
     lost: Float64  # (n,), share of a white environment that paths through glass gave up
 
     @classmethod
     def blank(cls, count: int) -> Tile:
         """Return a tile on which nothing was drawn."""
         return cls(
-            np.zeros((count, 4)),
-            np.full(count, -1),
-            np.full(count, np.inf),
-            np.zeros((count, 3)),
-            np.zeros(count),
+            rgba=np.zeros((count, 4)),
+            material=np.full(count, -1),
+            depth_m=np.full(count, np.inf),
+            standard_error=np.zeros((count, 3)),
+            edge_px=np.full(count, np.inf),
+            lost=np.zeros(count),
         )
 
 
@@ -88,6 +92,7 @@ class Painter:
         blended = [plan.calls_for(Effect.ALPHA_BLEND) for plan in job.stage.plans]
         self._is_blended = np.asarray(blended) & job.is_blending
         self._slots = np.asarray(job.stage.slots)
+        self._methods: dict[int, FilmMethod] = {}
         self._environment: EnvironmentMap | None = None
         if job.environment is not None and job.lighting != "punctual":
             self._environment = EnvironmentMap(job.environment)
@@ -128,10 +133,16 @@ class Painter:
             is_first = tile.material[left] < 0
             tile.depth_m[left[is_first]] = depth_m[is_first]
             tile.material[left[is_first]] = self._slots[hits.primitive[is_first]]
+            tile.edge_px[left[is_first]] = self._edge_px(_only(hits, is_first), left[is_first], rows[0])
             going_on = alpha < 1.0
             start = hits.distance[going_on] + self._tracer.clearance_m
             left = left[going_on]
         return tile
+
+    def _edge_px(self, hits: Hits, pixels: Int64, first_row: int) -> Float64:
+        width = self._job.size[0]
+        centres = np.column_stack([pixels % width, pixels // width + first_row]) + 0.5
+        return edge_distance_px(self._job.camera, self._job.size, self._tracer.corners(hits), centres)
 
     def _alpha(self, hits: Hits) -> Float64:
         """Return how much (n,) of what lies behind each hit it hides."""
@@ -181,8 +192,12 @@ class Painter:
         job, plan = self._job, self._job.stage.plans[slot]
         film_ior = (job.stage.materials[slot].iridescence or Iridescence()).film_ior
         # Without a film there is no method, and none is ever called.
-        method = job.film_method or plan.method or DEFAULT_METHOD
-        return FilmOn(surface, film_ior, partial(evaluate, method, white=job.white))
+        name = job.film_method or plan.method or DEFAULT_METHOD
+        if slot not in self._methods:
+            method = partial(evaluate, name, white=job.white)
+            # The truth takes a hundred microseconds; a picture asks for millions of films.
+            self._methods[slot] = TabulatedFilm(method) if find_method(name).is_truth else method
+        return FilmOn(surface, film_ior, self._methods[slot])
 
 
 def _only(hits: Hits, rows: NDArray[np.bool_] | Int64) -> Hits:
