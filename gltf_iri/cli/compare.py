@@ -19,7 +19,14 @@ from gltf_iri.cli.common import (
     print_table,
     progress,
 )
-from gltf_iri.cli.picture_options import EMPTY_PICTURE, SIZE, choose_exposure, exposure_option
+from gltf_iri.cli.picture_options import (
+    EMPTY_PICTURE,
+    SIZE,
+    choose_exposure,
+    exposure_option,
+    reference_counts,
+    reference_options,
+)
 
 if TYPE_CHECKING:
     from gltf_iri.comparison.reference_result import ReferenceResult
@@ -49,19 +56,7 @@ __all__ = ["command"]
 @click.option(
     "--white", type=click.Choice(["D65", "E"]), default="D65", show_default=True, help="White of the truth."
 )
-@click.option("--reference", is_flag=True, help="Also cast rays on the CPU and compare with what they see.")
-@click.option(
-    "--samples",
-    type=click.IntRange(1),
-    metavar="N",
-    help="With --reference: samples of the image light for each pixel.  [default: 256]",
-)
-@click.option(
-    "--paths",
-    type=click.IntRange(1),
-    metavar="N",
-    help="With --reference: paths through glass for each pixel.  [default: 64]",
-)
+@reference_options("Also cast rays on the CPU and compare with what they see.")
 @json_option
 def command(
     file: Path,
@@ -94,10 +89,7 @@ def command(
 
     if out == "":
         raise UsageError("The name of the folder is empty; write '.' for this one.")
-    asked = {"image_samples": samples, "paths": paths}
-    counts: dict[str, Any] = {name: count for name, count in asked.items() if count is not None}
-    if counts and not reference:
-        raise UsageError("--samples and --paths are the reference's: add --reference.")
+    counts = reference_counts(reference, samples, paths)
     environment = choose_environment(env)
     model = load(file)
     scene = model.scene()

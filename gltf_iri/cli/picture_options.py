@@ -10,7 +10,8 @@ import click
 if TYPE_CHECKING:
     from gltf_iri.scene.model import Environment, Scene
 
-__all__ = ["EMPTY_PICTURE", "SIZE", "choose_exposure", "exposure_option"]
+__all__ = ["EMPTY_PICTURE", "SIZE", "choose_exposure", "exposure_option", "reference_counts"]
+__all__ += ["reference_options"]
 
 EMPTY_PICTURE = "Nothing of the model is in the picture: it lies out of the camera's sight or has no extent."
 
@@ -76,3 +77,40 @@ def choose_exposure(
 
     wanted = default if asked is None else asked
     return automatic_exposure(scene, environment) if wanted == "auto" else float(wanted)
+
+
+def reference_options(what: str) -> Callable[[Any], Any]:
+    """Return the options `--reference`, explained by `what`, `--samples` and `--paths`, None by default."""
+    options = (
+        click.option("--reference", is_flag=True, help=what),
+        click.option(
+            "--samples",
+            type=click.IntRange(1),
+            metavar="N",
+            help="With --reference: samples of the image light for each pixel.  [default: 256]",
+        ),
+        click.option(
+            "--paths",
+            type=click.IntRange(1),
+            metavar="N",
+            help="With --reference: paths through glass for each pixel.  [default: 64]",
+        ),
+    )
+
+    def add(command: Any) -> Any:
+        for option in reversed(options):
+            command = option(command)
+        return command
+
+    return add
+
+
+def reference_counts(reference: bool, samples: int | None, paths: int | None) -> dict[str, Any]:
+    """Return what was asked for as arguments of the reference; UsageError where there is no reference."""
+    from gltf_iri.errors import UsageError
+
+    asked = {"image_samples": samples, "paths": paths}
+    counts = {name: count for name, count in asked.items() if count is not None}
+    if counts and not reference:
+        raise UsageError("--samples and --paths are the reference's: add --reference.")
+    return counts

@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
 from gltf_iri.cli.common import file_argument, json_option, note, print_json, progress
-from gltf_iri.cli.picture_options import EMPTY_PICTURE, SIZE, choose_exposure, exposure_option
+from gltf_iri.cli.drawing import Drawn, opengl, rays
+from gltf_iri.cli.picture_options import (
+    SIZE,
+    choose_exposure,
+    exposure_option,
+    reference_counts,
+    reference_options,
+)
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from gltf_iri.planning.material_plan import MaterialPlan
-    from gltf_iri.rendering.frame import Frame
     from gltf_iri.scene.model import Camera
 
 __all__ = ["command"]
@@ -54,6 +56,7 @@ _TONE_MAPS = ("none", "neutral", "aces")
     help="N pictures once around the scene: an animated WebP, or OUT-000.png and so on.",
 )
 @click.option("--method", metavar="NAME", help="Film method; the plan chooses when left out.")
+@reference_options("Cast rays on the CPU instead: slow, without OpenGL, through the pixels' centres.")
 @json_option
 def command(
     file: Path,
@@ -65,6 +68,9 @@ def command(
     camera: int | None,
     orbit: int | None,
     method: str | None,
+    reference: bool,
+    samples: int | None,
+    paths: int | None,
     as_json: bool,
 ) -> None:
     """Draw FILE to OUT without a window.
@@ -75,16 +81,16 @@ def command(
     """
     from gltf_iri.errors import UsageError
     from gltf_iri.planning.decide import complete_plans, plan_materials
-    from gltf_iri.rendering.context import create_context
     from gltf_iri.rendering.picture import check_picture_path, write_orbit, write_picture
     from gltf_iri.rendering.programs import check_method
-    from gltf_iri.rendering.render import Renderer
     from gltf_iri.scene.choose import choose_camera, choose_environment
     from gltf_iri.scene.framing import orbit_scene
     from gltf_iri.scene.load import load
 
     check_picture_path(out)
-    check_method(method)
+    counts = reference_counts(reference, samples, paths)
+    if not reference:
+        check_method(method)  # rays take any method for films, the truth included
     is_linear = out.suffix.lower() == ".exr"
     if tonemap not in (None, "none") and is_linear:
         raise UsageError(f"EXR keeps linear light and is not tone mapped; leave '--tonemap {tonemap}' out.")
@@ -99,15 +105,16 @@ def command(
         views = orbit_scene(scene, aspect=max(size[0], 1) / max(size[1], 1), count=orbit)
     plans = complete_plans(plan_materials(model.materials, method=method), scene)
     exposure_ev = choose_exposure(exposure, scene, environment, default="0" if is_linear else "auto")
-    renderer = Renderer(create_context())
-    drawn = _Drawn(lambda view: renderer.render(model, scene, plans, view, environment, size=size))
-    with progress("Drawing", len(views) + 1) as advance:
+    subject = (model, scene, plans, environment, size)
+    brush = rays(*subject, counts) if reference else opengl(*subject)
+    with progress("Drawing", len(views) * brush.steps + 1) as advance:
+        drawn = Drawn(brush.draw)
         pictures = drawn.pictures(views, advance)
-        paths: tuple[Path, ...] = (out,)
+        written: tuple[Path, ...] = (out,)
         if orbit is None:
             write_picture(out, next(pictures), exposure_ev, tonemap or "neutral")
         else:
-            paths = write_orbit(out, pictures, len(views), exposure_ev, tonemap or "neutral")
+            written = write_orbit(out, pictures, len(views), exposure_ev, tonemap or "neutral")
         advance()
 
     used = [plan for plan in plans if plan.index in {primitive.material for primitive in scene.primitives}]
@@ -121,8 +128,8 @@ def command(
         )
     )
     told: dict[str, Any] = {
-        "out": paths[0],
-        "outputs": paths,
+        "out": written[0],
+        "outputs": written,
         "size": list(size),
         "renderer": drawn.renderer,
         "ms": round(drawn.milliseconds, 3),
@@ -143,28 +150,6 @@ def command(
     for text in (*notes, *_not_drawn(used)):
         note(text)
     click.echo(_summary(told, count=len(views)))
-
-
-@dataclass
-class _Drawn:
-    """Draws pictures as they are asked for, and adds up what is told about them."""
-
-    draw: Callable[[Camera], Frame]
-    renderer: str = ""
-    milliseconds: float = 0.0
-    notes: tuple[str, ...] = ()
-
-    def pictures(self, views: Sequence[Camera], advance: Callable[[], None]) -> Iterator[NDArray[np.float32]]:
-        is_empty = True
-        for view in views:
-            frame = self.draw(view)
-            self.renderer = frame.renderer
-            self.milliseconds += frame.milliseconds
-            is_empty = is_empty and not frame.rgba[..., 3].any()
-            empty = (EMPTY_PICTURE,) if is_empty and view is views[-1] else ()
-            self.notes = tuple(dict.fromkeys((*self.notes, *frame.notes, *empty)))
-            advance()
-            yield frame.rgba
 
 
 def _summary(told: dict[str, Any], *, count: int) -> str:

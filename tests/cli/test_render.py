@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 from gltf_iri.cli.main import run
+from gltf_iri.errors import MissingCapabilityError
+from gltf_iri.rendering import context as context_module
 
 
 @pytest.fixture
@@ -91,6 +93,7 @@ def test_the_method_asked_for_is_used(gl_context, triangle, tmp_path, capsys):
         (["-o", "a.png", "--exposure", "nan"], "nan"),
         (["-o", "a.png", "--exposure", "bright"], "neither a number nor auto"),
         (["-o", "a.exr", "--tonemap", "aces"], "not tone mapped"),
+        (["-o", "a.png", "--paths", "4"], "add --reference"),
         (["-o", "a.webp", "--orbit", "0"], "not 0"),
         (["-o", "a.webp", "--orbit", "1000000000"], "1 to 360"),
         (["-o", "a.webp", "--orbit", "4", "--camera", "0"], "its own cameras"),
@@ -174,3 +177,39 @@ def test_the_bounds_of_the_options_are_those_of_the_parts():
     from gltf_iri.scene.exposure import EXPOSURE_MAX_EV
 
     assert picture_options._EXPOSURE_MAX_EV == EXPOSURE_MAX_EV
+
+
+def test_the_reference_needs_no_opengl(triangle, tmp_path, capsys, monkeypatch):
+    def missing():
+        raise MissingCapabilityError("no OpenGL here")
+
+    monkeypatch.setattr(context_module, "create_context", missing)
+    call = ["render", str(triangle), "--size", "12x8", "--env", "white", "--samples", "8", "--json"]
+    assert run([*call, "--reference", "-o", str(tmp_path / "a.png")]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (tmp_path / "a.png").exists()
+    assert told["renderer"] == "the CPU reference" and told["ms"] > 0
+    assert run([*call[:-3], "-o", str(tmp_path / "b.png")]) == 3
+
+
+def test_the_reference_draws_what_opengl_draws(gl_context, triangle, tmp_path):
+    from PIL import Image
+
+    shown = {}
+    for name, options in (("a.png", []), ("b.png", ["--reference"])):
+        call = ["render", str(triangle), "-o", str(tmp_path / name), "--size", "32x24", "--env", "white"]
+        assert run([*call, *options]) == 0
+        with Image.open(tmp_path / name) as picture:
+            shown[name] = np.asarray(picture).astype(int)
+    # Edges differ, which OpenGL smooths; the middle of the triangle and the background do not.
+    for row, column in ((14, 16), (1, 1)):
+        np.testing.assert_allclose(shown["a.png"][row, column], shown["b.png"][row, column], atol=2)
+
+
+def test_an_orbit_may_be_drawn_by_the_reference_with_the_truth(triangle, tmp_path, capsys):
+    call = ["render", str(triangle), "-o", str(tmp_path / "a.exr"), "--size", "8x6", "--orbit", "2"]
+    options = ["--reference", "--samples", "4", "--method", "spectral", "--json"]
+    assert run([*call, *options]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["method"] == "spectral"
+    assert len(told["outputs"]) == 2
