@@ -42,7 +42,7 @@ LAYERS_PER_LEVEL: Final = 3
 LAYER_ROUGHNESS_MIN: Final = 1.0 / 16.0
 ROUGHNESS_LAYERS: Final = 9
 _LEVEL_SIZES: Final = ((512, 256), (256, 128), (128, 64), (64, 32))
-_LOBE_RAYS: Final = (48, 192, 600)
+_LOBE_RAYS: Final = (39, 144, 390)
 # Layers of sheen roughness 0, ¼ … 1: fibres send light to all sides, and their lobe changes slowly.
 SHEEN_LAYERS: Final = 5
 _SHEEN_SIZE: Final = (48, 24)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from os import PathLike
 from pathlib import Path
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,11 +17,18 @@ from gltf_iri.scene.model import Environment
 from gltf_iri.scene.radiance_hdr import read_radiance
 from gltf_iri.scene.studio import studio_radiance
 
-__all__ = ["read_environment", "studio", "white"]
+__all__ = ["RADIANCE_MAX", "read_environment", "studio", "white"]
 
 # Behind a model in the studio: a dark grey card. A film that passes on nine tenths of the light shows its
 # colours against the dark only, and black things still stand out from it.
 _STUDIO_BACKDROP = (0.06, 0.06, 0.06)
+
+# The largest half float.
+_HALF_MAX: Final = np.float32(65504.0)
+
+# Sums over all texels of a map, times the densest lobe, stay within float32.
+# The sun's disc has some 1e9 cd/m².
+RADIANCE_MAX: Final = np.float32(1e24)
 
 Float32 = NDArray[np.float32]
 
@@ -30,9 +38,10 @@ _OPENEXR_MAGIC = b"\x76\x2f\x31\x01"
 def read_environment(path: str | PathLike[str]) -> Environment:
     """Return the equirectangular map of a Radiance (.hdr) or OpenEXR (.exr) file, told apart by their bytes.
 
-    Its width must be twice its height. Negative values, which lossy compression leaves around bright lights,
-    become 0 and are noted. Raises UsageError where the file cannot be read, AssetError where it is not such a
-    map or holds a number that is not finite.
+    Its width must be twice its height. What cannot be light is changed and noted: negative values, which
+    lossy compression leaves around bright lights, become 0; +∞, which 16-bit files hold where a light was
+    brighter than their largest number, becomes that number; and nothing stays above RADIANCE_MAX. Raises
+    UsageError where the file cannot be read, AssetError where it is no such map or holds what is no number.
     """
     place = Path(path)
     data = read_given(place, MAX_IMAGE_FILE_BYTES)
@@ -63,17 +72,27 @@ def _checked(place: Path, radiance: Float32) -> Environment:
             f"an equirectangular map is twice as wide as high, and this picture is {width} × {height}",
             file=place,
         )
-    broken = ~np.isfinite(radiance).all(axis=2)
+    broken = np.isnan(radiance) | np.isneginf(radiance)
     if broken.any():
-        row, column = (int(n) for n in np.argwhere(broken)[0])
+        row, column, _ = (int(n) for n in np.argwhere(broken)[0])
         raise AssetError(
-            f"{int(broken.sum())} pixels are not finite, the first in row {row}, column {column}", file=place
+            f"{_count(broken)} pixels are not numbers, the first in row {row}, column {column}", file=place
         )
-    negative = (radiance < 0.0).any(axis=2)
-    if not negative.any():
-        return Environment(place.name, radiance)
-    lowest = float(radiance.min())
-    note = (
-        f"{place.name} has {int(negative.sum())} pixels with negative light (down to {lowest:.3g}): set to 0."
-    )
-    return Environment(place.name, np.maximum(radiance, np.float32(0.0)), (note,))
+    negative, infinite = radiance < 0.0, np.isposinf(radiance)
+    blinding = (radiance > RADIANCE_MAX) & ~infinite
+    lowest = f" (down to {float(radiance.min()):.3g})"
+    notes = []
+    for wrong, replacement, what in (
+        (negative, np.float32(0.0), f"with negative light{lowest}"),
+        (infinite, _HALF_MAX, "of infinite light"),
+        (blinding, RADIANCE_MAX, "beyond what single precision can sum"),
+    ):
+        if wrong.any():
+            notes.append(f"{place.name} has {_count(wrong)} pixels {what}: set to {replacement:.6g}.")
+            radiance = np.where(wrong, replacement, radiance)
+    return Environment(place.name, radiance, tuple(notes))
+
+
+def _count(channels: NDArray[np.bool_]) -> int:
+    """Return in how many pixels of (height, width, 3) a channel is True."""
+    return int(channels.any(axis=2).sum())

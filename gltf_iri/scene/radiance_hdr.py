@@ -62,8 +62,12 @@ def read_radiance(data: bytes) -> Float32:
     scale: Float32 = np.ldexp(np.float32(1.0), np.arange(256) - 136)
     scale[0] = 0.0
     linear: Float32 = scale[rgbe[:, :, 3:]] * rgbe[:, :, :3]
-    with np.errstate(over="ignore"):  # a minute exposure overflows to ∞, which the reader of maps refuses
-        linear /= np.array(header.exposure, dtype=np.float32)
+    if header.exposure != (1.0, 1.0, 1.0):
+        with np.errstate(
+            over="ignore"
+        ):  # a minute exposure overflows to ∞, which becomes the largest float32
+            linear /= np.array(header.exposure, dtype=np.float32)
+        np.minimum(linear, np.finfo(np.float32).max, out=linear)
     return linear
 
 

@@ -7,7 +7,7 @@ import OpenEXR
 import pytest
 
 from gltf_iri.errors import AssetError, UsageError
-from gltf_iri.scene.environment import read_environment, studio, white
+from gltf_iri.scene.environment import RADIANCE_MAX, read_environment, studio, white
 from gltf_iri.scene.studio import STUDIO_BOXES, directions
 
 
@@ -74,12 +74,30 @@ def test_negative_light_becomes_black_and_is_noted(tmp_path):
     assert environment.notes == ("sky.exr has 1 pixels with negative light (down to -5): set to 0.",)
 
 
-@pytest.mark.parametrize("value", [math.nan, math.inf])
-def test_light_that_is_not_finite_is_refused_with_its_place(tmp_path, value):
+@pytest.mark.parametrize("value", [math.nan, -math.inf])
+def test_light_that_is_no_number_is_refused_with_its_place(tmp_path, value):
     picture = _asymmetric()
     picture[2, 3, 1] = value
-    with pytest.raises(AssetError, match=r"sky\.exr: 1 pixels are not finite, the first in row 2, column 3"):
+    with pytest.raises(AssetError, match=r"sky\.exr: 1 pixels are not numbers, the first in row 2, column 3"):
         read_environment(_exr(tmp_path / "sky.exr", _rgb(picture)))
+
+
+def test_infinite_light_becomes_the_largest_half_and_is_noted(tmp_path):
+    picture = _asymmetric()
+    picture[1, 2] = 1e6
+    with np.errstate(over="ignore"):
+        path = _exr(tmp_path / "sun.exr", _rgb(picture, "f2"))
+    environment = read_environment(path)
+    np.testing.assert_array_equal(environment.radiance[1, 2], [65504] * 3)
+    assert environment.notes == ("sun.exr has 1 pixels of infinite light: set to 65504.",)
+
+
+def test_light_beyond_what_can_be_summed_is_bounded_and_noted(tmp_path):
+    picture = _asymmetric()
+    picture[3, 7] = (1.0, 3e38, 2.0)
+    environment = read_environment(_exr(tmp_path / "sun.exr", _rgb(picture)))
+    np.testing.assert_array_equal(environment.radiance[3, 7], [1.0, RADIANCE_MAX, 2.0])
+    assert environment.notes == ("sun.exr has 1 pixels beyond what single precision can sum: set to 1e+24.",)
 
 
 def test_a_picture_of_another_shape_is_refused(tmp_path):
@@ -120,11 +138,12 @@ def test_a_broken_radiance_picture_is_refused_with_its_name(tmp_path):
     assert caught.value.file == path
 
 
-def test_an_exposure_that_makes_light_infinite_is_refused(tmp_path):
+def test_an_exposure_that_overflows_is_bounded_and_noted(tmp_path):
     path = tmp_path / "sky.hdr"
     path.write_bytes(b"#?RADIANCE\nEXPOSURE=1e-29\n\n-Y 1 +X 2\n" + bytes((128, 128, 128, 200)) * 2)
-    with pytest.raises(AssetError, match="not finite"):
-        read_environment(path)
+    environment = read_environment(path)
+    assert np.all(environment.radiance == RADIANCE_MAX)
+    assert "2 pixels beyond" in environment.notes[0]
 
 
 def test_a_path_that_does_not_exist_or_is_something_else_is_a_wrong_call(tmp_path):
