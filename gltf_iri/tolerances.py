@@ -14,6 +14,7 @@ __all__ = [
     "GLSL_PIXEL_RELATIVE",
     "GLSL_PIXEL_ROUGHNESS_MIN",
     "REFERENCE_DEPTH_RELATIVE",
+    "REFERENCE_EDGE_PX",
     "SPECTRAL_COLOUR_MAX_ABS",
     "SPECTRAL_REFLECTANCE_MAX_ABS",
     "SPECTRAL_VERSUS_TMM_MAX_ABS",
@@ -46,3 +47,7 @@ GLSL_PIXEL_ROUGHNESS_MIN: Final = 0.2
 # How far apart two renderers may see the same surface through the same pixel: float32 positions of 1e-7, over
 # the slant of what is nearly edge-on.
 REFERENCE_DEPTH_RELATIVE: Final = 1e-4
+
+# How near to an edge two renderers may see the triangles on either side of it: OpenGL rounds corners to 1/256
+# pixel (eight bits below the pixel here and on graphics cards), which moves an edge by up to 0.7 of that.
+REFERENCE_EDGE_PX: Final = 1.0 / 256.0

@@ -16,7 +16,7 @@ from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.render import ReferenceFrame
 from gltf_iri.rendering.frame import ShadingInputs
 from gltf_iri.scene.model import Camera
-from gltf_iri.tolerances import GLSL_PIXEL_ROUGHNESS_MIN, REFERENCE_DEPTH_RELATIVE
+from gltf_iri.tolerances import GLSL_PIXEL_ROUGHNESS_MIN, REFERENCE_DEPTH_RELATIVE, REFERENCE_EDGE_PX
 
 __all__ = ["delta_e_picture", "is_see_through", "noisy_error", "same_problem", "same_surface"]
 
@@ -30,7 +30,7 @@ def is_see_through(plan: MaterialPlan) -> bool:
 
 
 def same_surface(inputs: ShadingInputs, reference: ReferenceFrame, camera: Camera) -> Mask:
-    """Return where (height, width) both renderers met the same material at the same depth.
+    """Return where (height, width) both renderers met the same material at the same depth, off any edge.
 
     OpenGL moves vertices by up to half of its smallest step of a pixel before it asks which pixels a triangle
     covers, so along an edge the two may see what is on either side of it.
@@ -39,7 +39,8 @@ def same_surface(inputs: ShadingInputs, reference: ReferenceFrame, camera: Camer
     depth_m = -(position @ camera.view[2, :3] + camera.view[2, 3])
     apart = np.abs(depth_m - np.where(np.isfinite(reference.depth_m), reference.depth_m, 0.0))
     is_near = apart <= REFERENCE_DEPTH_RELATIVE * np.abs(depth_m)
-    return np.asarray((inputs.material >= 0) & (inputs.material == reference.material) & is_near)
+    is_inside = reference.edge_px > REFERENCE_EDGE_PX
+    return np.asarray((inputs.material >= 0) & (inputs.material == reference.material) & is_near & is_inside)
 
 
 def same_problem(inputs: ShadingInputs, reference: ReferenceFrame, mask: Mask, is_same: Mask) -> SameProblem:

@@ -141,7 +141,7 @@ class Painter:
 
     def _edge_px(self, hits: Hits, pixels: Int64, first_row: int) -> Float64:
         width = self._job.size[0]
-        centres = np.column_stack([pixels % width, pixels // width + first_row]) + 0.5
+        centres = np.column_stack([pixels % width, pixels // width + first_row]).astype(np.float64) + 0.5
         return edge_distance_px(self._job.camera, self._job.size, self._tracer.corners(hits), centres)
 
     def _alpha(self, hits: Hits) -> Float64:

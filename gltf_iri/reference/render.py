@@ -36,12 +36,15 @@ class ReferenceFrame:
     material : (height, width), place of the plan of the nearest surface, −1 where there is none.
     depth_m : (height, width), its distance from the eye along the view's axis, ∞ where there is none.
     standard_error : (height, width, 3), of the estimate in `rgba`; 0 where nothing was estimated.
+    edge_px : (height, width), distance of the pixel's centre from the nearest edge of the triangle that it
+        sees, ∞ where there is none; where it is less than some 1/256, OpenGL may see the neighbour.
     """
 
     rgba: Float64
     material: NDArray[np.int64]
     depth_m: Float64
     standard_error: Float64
+    edge_px: Float64
     notes: tuple[str, ...]
 
 
@@ -109,13 +112,14 @@ def render_reference(
         pixels = slice(rows[index][0] * width, rows[index][1] * width)
         whole.rgba[pixels], whole.material[pixels] = tile.rgba, tile.material
         whole.depth_m[pixels], whole.standard_error[pixels] = tile.depth_m, tile.standard_error
-        whole.lost[pixels] = tile.lost
+        whole.edge_px[pixels], whole.lost[pixels] = tile.edge_px, tile.lost
         advance()
     return ReferenceFrame(
         whole.rgba.reshape(height, width, 4),
         whole.material.reshape(height, width),
         whole.depth_m.reshape(height, width),
         whole.standard_error.reshape(height, width, 3),
+        whole.edge_px.reshape(height, width),
         (*_notes(job), *_losses(whole, path_depth)),
     )
 

@@ -121,6 +121,11 @@ class Tracer:
             self._trace(query, np.arange(start, min(start + _CHUNK, count)))
         return query.found
 
+    def corners(self, hits: Hits) -> Float64:
+        """Return the corners (n, 3, 3), in the world, of the triangles that valid `hits` lie on."""
+        first = np.searchsorted(self._triangles.primitive, hits.primitive)
+        return np.asarray(self._triangles.corners[first + hits.triangle])
+
     def _trace(self, query: _Query, rows: Int64) -> None:
         """Find what the rays at `rows` meet."""
         start = self._candidates.entry_m(query.origins[rows], query.directions[rows])

@@ -21,17 +21,24 @@ def reference_of(inputs, depth_m: float = 1.0) -> ReferenceFrame:
     shape = inputs.material.shape
     rgba = np.concatenate([inputs.colour, np.ones((*shape, 1))], axis=-1).astype(np.float64)
     return ReferenceFrame(
-        rgba, inputs.material.astype(np.int64), np.full(shape, depth_m), np.zeros((*shape, 3)), ()
+        rgba=rgba,
+        material=inputs.material.astype(np.int64),
+        depth_m=np.full(shape, depth_m),
+        standard_error=np.zeros((*shape, 3)),
+        edge_px=np.full(shape, np.inf),
+        notes=(),
     )
 
 
-def test_the_same_surface_is_one_material_at_one_depth(row_of_pixels, camera) -> None:
-    inputs = row_of_pixels(4)
+def test_the_same_surface_is_one_material_at_one_depth_off_its_edges(row_of_pixels, camera) -> None:
+    inputs = row_of_pixels(5)
     reference = reference_of(inputs)
     reference.material[0, 1] = 1
     reference.depth_m[0, 2] = 1.001
     reference.material[0, 3], reference.depth_m[0, 3] = -1, np.inf
-    np.testing.assert_array_equal(same_surface(inputs, reference, camera), [[True, False, False, False]])
+    reference.edge_px[0, 4] = 0.001
+    expected = [[True, False, False, False, False]]
+    np.testing.assert_array_equal(same_surface(inputs, reference, camera), expected)
 
 
 def test_pixels_on_edges_are_counted_and_not_compared(row_of_pixels) -> None:
