@@ -100,7 +100,8 @@ def shadowing_ratio(
     light_slant, view_slant = _slant(light, alpha_t, alpha_b), _slant(view, alpha_t, alpha_b)
     if not is_mirrored:
         return np.asarray(2.0 * light_z / (light_z + light_slant))
-    return np.asarray(light_z * (view_z + view_slant) / (light_z * view_slant + view_z * light_slant))
+    masked = light_z * view_slant + view_z * light_slant
+    return np.asarray(light_z * (view_z + view_slant) / np.where(masked != 0.0, masked, 1.0))
 
 
 def mirrored(view: Float64, facet: Float64) -> Float64:
