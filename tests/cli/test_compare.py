@@ -75,7 +75,9 @@ def test_a_scene_without_lights_is_lit_by_a_rig_and_told_so(gl_context, tmp_path
 
 def test_numbers_of_the_reference_are_refused_without_it(tmp_path, capsys):
     assert run(["compare", str(PEARL), "-o", str(tmp_path), "--samples", "8"]) == 2
-    assert capsys.readouterr().err == "gltf-iri: --samples and --paths are the reference's: add --reference.\n"
+    assert (
+        capsys.readouterr().err == "gltf-iri: --samples and --paths are the reference's: add --reference.\n"
+    )
 
 
 def test_without_embree_the_command_says_what_to_install(gl_context, tmp_path, capsys, monkeypatch):

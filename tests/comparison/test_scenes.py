@@ -100,8 +100,7 @@ def test_command_ends_with_1_where_the_two_disagree(
 
     def a_little_brighter(*arguments):
         shading = exact(*arguments)
-        shading.rgb = shading.rgb + 0.01
-        return shading
+        return replace(shading, rgb=shading.rgb + 0.01)
 
     monkeypatch.setattr(judge_module, "shade", a_little_brighter)
     assert run(["compare", str(samples["pearl"]), "-o", str(tmp_path), "--size", "48x32"]) == 1
