@@ -55,7 +55,7 @@ def split_lamps(radiance: Float32) -> tuple[Float32, Float32]:
     for _ in range(_TRIES_MAX):
         if len(lamps) == LAMPS_MAX or not len(candidates):
             break
-        row, column = divmod(int(candidates[0]), width)
+        row, column = _centred(strength, polar, int(candidates[0]), radius)
         rows, columns = _window(row, column, _OUTER_RADIUS * radius, height, width)
         direction = _directions(polar[rows], columns, width)
         distance_squared = np.sum(np.square(direction - _directions(polar[row], column, width)), axis=-1)
@@ -91,6 +91,20 @@ def _candidates(strength: Float32, least: float) -> NDArray[np.int64]:
     needed = np.maximum(_TIMES_SURROUNDINGS * around[rows][:, columns], least)
     found = np.flatnonzero(strength > needed)
     return np.asarray(found[np.argsort(-strength.ravel()[found], kind="stable")])
+
+
+def _centred(strength: Float32, polar: Float64, place: int, radius: float) -> tuple[int, int]:
+    """Return the texel in the middle of the light about a texel, for a sun's brightest may be at its edge."""
+    height, width = strength.shape
+    row, column = divmod(place, width)
+    rows, columns = _window(row, column, radius, height, width)
+    direction = _directions(polar[rows], columns, width)
+    apart = np.sum(np.square(direction - _directions(polar[row], column, width)), axis=-1)
+    weight = strength[np.ix_(rows, columns)].astype(np.float64) * np.sin(polar[rows])[:, None]
+    middle = np.sum(direction * np.where(apart <= radius**2, weight, 0.0)[..., None], axis=(0, 1))
+    down = np.arctan2(np.hypot(middle[0], middle[2]), middle[1]) / np.pi
+    around = 0.5 + np.arctan2(middle[2], middle[0]) / (2.0 * np.pi)
+    return min(int(down * height), height - 1), int(around * width) % width
 
 
 def _window(
