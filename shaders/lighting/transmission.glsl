@@ -46,6 +46,19 @@ vec4 captured_light(vec2 uv, float level) {
     return is_beside ? vec4(0.0) : textureLod(u_captured, uv, level);
 }
 
+// What stands before the surface is not seen through it; what lies straight behind is.
+bool is_before_surface(vec2 uv) {
+    ivec2 size = textureSize(u_captured_depth, 0);
+    ivec2 corner = ivec2(floor(uv * vec2(size) - 0.5));
+    float surface = view_depth(v_position);
+    bool is_before = false;
+    for (int i = 0; i < 4; ++i) {  // every texel that filtering reads
+        vec2 met = texelFetch(u_captured_depth, clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), size - 1), 0).rg;
+        is_before = is_before || met.x < surface * met.y;
+    }
+    return is_before;
+}
+
 // A ray that leaves the body, and the lobe around it.
 struct Passage {
     vec3 from;
@@ -83,10 +96,8 @@ vec4 captured_lobe(Passage passage) {
 
     if (2.0 * alpha * distance_m * scale < 0.25) {
         vec2 uv = place_on_picture(passage.from + distance_m * passage.direction);
-        vec2 met = textureLod(u_captured_depth, uv, 0.0).rg;
-        // What stands before the surface is not seen through it; what lies straight behind is.
-        bool is_before = met.x < view_depth(v_position) * met.y;
-        return is_before ? texelFetch(u_captured, ivec2(gl_FragCoord.xy), 0) : captured_light(uv, log2(pixel_width));
+        return is_before_surface(uv) ? texelFetch(u_captured, ivec2(gl_FragCoord.xy), 0)
+                                     : captured_light(uv, log2(pixel_width));
     }
     vec3 axis = passage.direction;
     vec3 tangent = normalize(abs(axis.y) < 0.9 ? cross(axis, vec3(0.0, 1.0, 0.0)) : cross(axis, vec3(1.0, 0.0, 0.0)));
@@ -143,15 +154,32 @@ vec3 arriving_radiance(vec3 from, vec3 direction, float roughness, bool is_bent)
 }
 
 #ifdef HAS_VOLUME
-// KHR_materials_volume: bent where it enters, absorbed along the way by Beer's law.
+// How much of a ball the body is here: ½ · thickness · mean curvature of the mesh, from neighbouring pixels.
+float roundness_of_body(float thickness_m) {
+    vec3 normal = normalize(v_normal);
+    vec3 px = dFdx(v_position), py = dFdy(v_position);
+    vec3 nx = dFdx(normal), ny = dFdy(normal);
+    float xx = dot(px, px), xy = dot(px, py), yy = dot(py, py);
+    float area = xx * yy - xy * xy;
+    float bent = 0.5 * (yy * dot(nx, px) - xy * (dot(nx, py) + dot(ny, px)) + xx * dot(ny, py));
+    // Seen from its edge a surface has no neighbours; seen from inside it is hollow.
+    bool is_known = area > 1e-6 * xx * yy && gl_FrontFacing;
+    return is_known ? clamp(0.5 * thickness_m * bent / area, 0.0, 1.0) : 0.0;
+}
+
+// KHR_materials_volume: bent where it enters and where it leaves, absorbed along the way by Beer's law.
 vec3 radiance_through_body(Surface s, vec3 n, vec3 v, float ior) {
     // A mapped normal that turns away from the viewer would bend light back out.
     vec3 facing = normalize(n - min(dot(n, v), 0.0) * v);
     vec3 inside = refract(-v, facing, 1.0 / ior);
     float scale = length(u_world_to_mesh * inside);
-    float path_m = scale > 0.0 ? s.volume_thickness_m / scale : 0.0;  // 0: the node flattens the mesh
+    float thickness_m = scale > 0.0 ? s.volume_thickness_m / scale : 0.0;  // 0: the node flattens the mesh
+    float roundness = roundness_of_body(thickness_m);
+    float cos_theta = max(-dot(facing, inside), 1e-3);  // at index 1 a grazing way through a plate has no end
+    float path_m = path_inside(thickness_m, cos_theta, roundness);
+    vec3 outside = ior == 1.0 ? -v : refract(inside, -exit_normal(facing, inside, roundness), ior);
     float roughness = refraction_roughness(s.perceptual_roughness, ior);
-    vec3 arriving = arriving_radiance(v_position + path_m * inside, inside, roughness, ior != 1.0);
+    vec3 arriving = arriving_radiance(v_position + path_m * inside, outside, roughness, ior != 1.0);
     return exp(-u_volume_absorption_per_m * path_m) * arriving;
 }
 #endif

@@ -22,6 +22,7 @@ from gltf_iri.optics.microfacet import (
     v_smith_ggx_correlated,
 )
 from gltf_iri.optics.refraction import cos_theta_2_squared
+from gltf_iri.optics.transmission import dispersed_iors, exit_normal, path_inside, refraction_roughness
 from gltf_iri.rendering.probe import Probe, ResultType
 from gltf_iri.tolerances import GLSL_OPTICS_MAX_ABS
 
@@ -51,6 +52,12 @@ def directions() -> list[Float64]:
     return [part.astype(np.float32).astype(np.float64) for part in parts]
 
 
+def unit_vectors() -> Float64:
+    """Random ones from the whole sphere, (ROWS, 3)."""
+    vectors = G.normal(size=(ROWS, 3))
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
+
+
 COLOUR = uniform(0.0, 1.0, 3)
 OTHER_COLOUR = uniform(0.0, 1.2, 3)  # a film may reflect more than 1
 COSINE = uniform(0.0, 1.0)
@@ -58,6 +65,11 @@ STRENGTH = uniform(0.0, 1.0)
 HALF, LIGHT, VIEW = directions(), directions(), directions()
 ALPHA_T, ALPHA_B = decades(ALPHA_MIN, 1.0), decades(ALPHA_MIN, 1.0)
 SHEEN_ALPHA = decades(sheen.SHEEN_ALPHA_MIN, 1.0)
+
+# Outward normals, and ways into the body that are steeper than 60°.
+ENTRY = unit_vectors()
+INSIDE = -ENTRY + 0.5 * unit_vectors()
+INSIDE /= np.linalg.norm(INSIDE, axis=1, keepdims=True)
 
 CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultType]] = {
     "f_schlick": ("optics/fresnel.glsl", lambda f0, c: f_schlick(f0, c[:, None]), [COLOUR, COSINE], "vec3"),
@@ -131,6 +143,20 @@ CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultTyp
     "lambda_sheen of any cosine": ("optics/sheen.glsl", sheen.lambda_sheen, [COSINE, SHEEN_ALPHA], "float"),
     "v_sheen": ("optics/sheen.glsl", sheen.v_sheen, [LIGHT[2], VIEW[2], SHEEN_ALPHA], "float"),
     "sheen_weight": ("optics/sheen.glsl", sheen.sheen_weight, [COLOUR, STRENGTH], "float"),
+    "refraction_roughness": (
+        "optics/transmission.glsl",
+        refraction_roughness,
+        [STRENGTH, uniform(1.0, 3.0)],
+        "float",
+    ),
+    "dispersed_iors": (
+        "optics/transmission.glsl",
+        dispersed_iors,
+        [uniform(1.0, 3.0), uniform(0.0, 10.0)],
+        "vec3",
+    ),
+    "exit_normal": ("optics/transmission.glsl", exit_normal, [ENTRY, INSIDE, STRENGTH], "vec3"),
+    "path_inside": ("optics/transmission.glsl", path_inside, [STRENGTH, uniform(0.1, 1.0), COSINE], "float"),
     "transmitted_share": (
         "material/layering.glsl",
         layering.transmitted_share,
