@@ -61,7 +61,7 @@ def render_reference(
     white: str = "D65",
     is_blending: bool = True,
     image_samples: int = 256,
-    path_depth: int = 8,
+    path_depth: int = 32,
     paths: int = 64,
     seed: int = 0,
     processes: int | None = None,
@@ -80,7 +80,8 @@ def render_reference(
     film_method, white : a method for every film in place of the plans' own, and the white it works under.
     is_blending : False draws blended materials as if opaque, as the renderer does with its shading inputs.
     image_samples : samples a pixel of the integral over the environment.
-    path_depth, paths : surfaces along a path through glass, and paths a pixel.
+    path_depth, paths : surfaces along a path through glass, and paths a pixel. Light is trapped in dense bodies
+        for long: 8 surfaces lose up to a third of what rough glass of index 2.4 shows, 32 some percent.
     seed : of all random numbers; the picture does not depend on `processes`.
     processes : None for one a processor.
     advance : called after each of `count_tiles(size)` tiles.
