@@ -80,7 +80,7 @@ def render_reference(
     film_method, white : a method for every film in place of the plans' own, and the white it works under.
     is_blending : False draws blended materials as if opaque, as the renderer does with its shading inputs.
     image_samples : samples a pixel of the integral over the environment.
-    path_depth, paths : surfaces along a path through glass, and paths a pixel. Dense bodies keep light for long:
+    path_depth, paths : surfaces along a path through glass, and paths a pixel. Dense bodies keep light long:
         of rough glass of index 2.4, 8 surfaces lose up to half, 32 a few percent.
     seed : of all random numbers; the picture does not depend on `processes`.
     processes : None for one a processor.
