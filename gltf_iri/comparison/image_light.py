@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.comparison.pixels import ImageLight
-from gltf_iri.optics.layering import transmitted_share
+from gltf_iri.optics.layering import CLEARCOAT_F0, transmitted_share
 from gltf_iri.optics.sheen import sheen_weight
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.layers import CLEARCOAT_F0
 from gltf_iri.reference.lobes import layered_reflectances
 from gltf_iri.reference.surface import Surface
 

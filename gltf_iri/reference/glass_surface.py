@@ -22,14 +22,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.optics.fresnel import f_schlick
-from gltf_iri.optics.layering import transmitted_share
+from gltf_iri.optics.layering import CLEARCOAT_F0, transmitted_share
 from gltf_iri.optics.microfacet import ALPHA_MIN, anisotropic_alphas
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.facets import Axes, draw_facet, mirrored, refracted, shadowing_ratio
 from gltf_iri.reference.film import FilmOn
 from gltf_iri.reference.image_light import take_points
-from gltf_iri.reference.layers import CLEARCOAT_F0, clearcoat_reflectance, fibre_passage
+from gltf_iri.reference.layers import clearcoat_reflectance, fibre_passage
 from gltf_iri.reference.lobes import film_reflectances, layered_reflectances
 from gltf_iri.reference.surface import Surface
 

@@ -6,23 +6,19 @@ Sources: KHR_materials_sheen, Albedo Scaling; KHR_materials_clearcoat, Layering.
 
 from __future__ import annotations
 
-from typing import Final
-
 import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.optics.dfg import dfg_terms
 from gltf_iri.optics.fresnel import f_schlick
+from gltf_iri.optics.layering import CLEARCOAT_F0
 from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN, d_ggx, v_smith_ggx_correlated
 from gltf_iri.optics.sheen import d_charlie, sheen_albedo, sheen_alpha, sheen_weight, v_sheen
 from gltf_iri.reference.surface import Surface
 
-__all__ = ["CLEARCOAT_F0", "clearcoat_lobe", "clearcoat_reflectance", "fibre_lobe", "fibre_passage"]
+__all__ = ["clearcoat_lobe", "clearcoat_reflectance", "fibre_lobe", "fibre_passage"]
 
 Float64 = NDArray[np.float64]
-
-# Of a varnish with index 1.5 under air (KHR_materials_clearcoat).
-CLEARCOAT_F0: Final = 0.04
 
 
 def fibre_lobe(surface: Surface, towards_light: Float64) -> Float64:

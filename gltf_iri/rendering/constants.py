@@ -31,7 +31,6 @@ def constants_glsl() -> str:
             "// gltf_iri/rendering/environment_light.py",
             f"const int LAYERS_PER_LEVEL = {environment_light.LAYERS_PER_LEVEL};",
             f"const int ROUGHNESS_LAYERS = {environment_light.ROUGHNESS_LAYERS};",
-            f"const int SHEEN_LAYERS = {environment_light.SHEEN_LAYERS};",
             _scalar("LAYER_ROUGHNESS_MIN", environment_light.LAYER_ROUGHNESS_MIN),
         ],
     )
@@ -83,6 +82,10 @@ def layer_constants_glsl() -> str:
         [
             "// gltf_iri/optics/layering.py",
             _scalar("CLEARCOAT_F0", layering.CLEARCOAT_F0),
+        ],
+        [
+            "// gltf_iri/rendering/environment_light.py",
+            f"const int SHEEN_LAYERS = {environment_light.SHEEN_LAYERS};",
         ],
     )
 

@@ -10,5 +10,4 @@ const float LIGHT_DISTANCE_MIN_M = 1e-06;
 // gltf_iri/rendering/environment_light.py
 const int LAYERS_PER_LEVEL = 3;
 const int ROUGHNESS_LAYERS = 9;
-const int SHEEN_LAYERS = 5;
 const float LAYER_ROUGHNESS_MIN = 0.0625;

@@ -7,3 +7,6 @@ const float SHEEN_FIT_AT_1[5] = float[5](21.5473, 3.82987, 0.19823, -1.9776, -4.
 
 // gltf_iri/optics/layering.py
 const float CLEARCOAT_F0 = 0.04;
+
+// gltf_iri/rendering/environment_light.py
+const int SHEEN_LAYERS = 5;

@@ -6,6 +6,9 @@
 #include "lighting/dfg.glsl"
 #include "lighting/equirect.glsl"
 #include "lighting/lamps.glsl"
+#ifdef HAS_SHEEN
+#include "generated/layer_constants.glsl"
+#endif
 
 uniform sampler2D u_environment;
 uniform sampler2D u_environment_rest;

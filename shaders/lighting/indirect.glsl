@@ -7,9 +7,9 @@
 #include "pass/surface_outputs.glsl"
 #ifdef HAS_IMAGE_LIGHT
 #include "lighting/environment.glsl"
+#endif
 #ifdef HAS_ANISOTROPY
 #include "lighting/anisotropy.glsl"
-#endif
 #endif
 #ifdef HAS_TRANSMISSION
 #include "lighting/transmission.glsl"
@@ -40,7 +40,11 @@ ImageLight image_light(Surface s, View w) {
 #endif
 #endif
 #if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)
+#ifdef HAS_ANISOTROPY
+    image.dfg = anisotropic_dfg_terms(s, w);
+#else
     image.dfg = dfg_terms(u_dfg, w.n_dot_v, s.perceptual_roughness);
+#endif
 #endif
 #ifdef HAS_TRANSMISSION
     image.transmitted = transmitted_radiance(s, w.n, w.v);

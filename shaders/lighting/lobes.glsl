@@ -3,6 +3,9 @@
 
 #include "material/layering.glsl"
 #include "material/surface.glsl"
+#ifdef HAS_TRANSMISSION
+#include "material/transmission_layering.glsl"
+#endif
 #ifdef HAS_IRIDESCENCE  // KHR_materials_iridescence, Implementation Notes
 #include "lighting/film.glsl"
 #include "material/film_layering.glsl"

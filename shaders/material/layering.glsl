@@ -18,9 +18,6 @@ vec3 conductor_fresnel(vec3 f0, float v_dot_h) { return f_schlick(f0, abs(v_dot_
 // glTF 2.0 Appendix B.2.2
 Layer fresnel_mix(float fresnel) { return Layer(vec3(fresnel), 1.0 - fresnel); }
 
-// T = clamp(1 − R, 0, 1), colour by colour; a film's text may give R outside [0, 1].
-vec3 transmitted_share(vec3 reflectance) { return clamp(1.0 - reflectance, 0.0, 1.0); }
-
 // base · (1 − max(R, G, B)) + colour; 1 − colour would tint the base with the opposite hue.
 // KHR_materials_specular, Implementation
 Layer rgb_mix(vec3 reflectance) { return Layer(reflectance, 1.0 - max3(reflectance)); }

@@ -36,10 +36,12 @@ centroid in vec4 v_tangent;
 
 vec3 towards_viewer() { return normalize(u_eye.xyz - u_eye.w * v_position); }
 
+#if defined(HAS_NORMAL_TEXTURE) || defined(HAS_ANISOTROPY) || defined(HAS_CLEARCOAT_NORMAL_TEXTURE)
 #ifdef HAS_TANGENTS
 #define FRAME(normal, uv) tangent_frame(normal, vec4(normalize(v_tangent.xyz), v_tangent.w))
 #else
 #define FRAME(normal, uv) tangent_frame(normal, v_position, uv)
+#endif
 #endif
 
 View view_surface(Surface s) {

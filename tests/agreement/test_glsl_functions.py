@@ -114,19 +114,19 @@ CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultTyp
         "float",
     ),
     "d_ggx_anisotropic": (
-        "optics/microfacet.glsl",
+        "optics/anisotropic_microfacet.glsl",
         d_ggx_anisotropic,
         [HALF[0], HALF[1], ALPHA_T, ALPHA_B],
         "float",
     ),
     "d_ggx_anisotropic near the highlight": (
-        "optics/microfacet.glsl",
+        "optics/anisotropic_microfacet.glsl",
         d_ggx_anisotropic,
         [decades(1e-6, 0.5), -decades(1e-6, 0.5), ALPHA_T, ALPHA_B],
         "float",
     ),
     "v_smith_ggx_anisotropic": (
-        "optics/microfacet.glsl",
+        "optics/anisotropic_microfacet.glsl",
         v_smith_ggx_anisotropic,
         [LIGHT[2], VIEW[2], LIGHT[0], LIGHT[1], VIEW[0], VIEW[1], ALPHA_T, ALPHA_B],
         "float",
@@ -158,7 +158,7 @@ CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultTyp
     "exit_normal": ("optics/transmission.glsl", exit_normal, [ENTRY, INSIDE, STRENGTH], "vec3"),
     "path_inside": ("optics/transmission.glsl", path_inside, [STRENGTH, uniform(0.1, 1.0), COSINE], "float"),
     "transmitted_share": (
-        "material/layering.glsl",
+        "material/transmission_layering.glsl",
         layering.transmitted_share,
         [uniform(-0.2, 1.3, 3)],
         "vec3",
@@ -213,18 +213,22 @@ def test_glsl_function_equals_its_python_twin(name: str, probe: Probe) -> None:
 
 def test_glsl_stretches_roughness_along_the_tangent_as_python_does(probe: Probe) -> None:
     arguments = [ALPHA_T, STRENGTH]
-    glsl = probe.call("anisotropic_alphas", "optics/microfacet.glsl", arguments, "float", member="x")
+    glsl = probe.call(
+        "anisotropic_alphas", "optics/anisotropic_microfacet.glsl", arguments, "float", member="x"
+    )
     assert relative_error(glsl, anisotropic_alphas(*arguments)[0]).max() <= GLSL_OPTICS_MAX_ABS
 
 
 def test_equal_roughness_along_and_across_is_isotropic_to_the_last_bit_of_d(probe: Probe) -> None:
     t, b = (part.astype(np.float32) for part in HALF[:2])
-    stretched = probe.call("d_ggx_anisotropic", "optics/microfacet.glsl", [t, b, ALPHA_T, ALPHA_T], "float")
+    stretched = probe.call(
+        "d_ggx_anisotropic", "optics/anisotropic_microfacet.glsl", [t, b, ALPHA_T, ALPHA_T], "float"
+    )
     even = probe.call("d_ggx", "optics/microfacet.glsl", [t * t + b * b, ALPHA_T], "float")
     np.testing.assert_array_equal(stretched, even)
     stretched = probe.call(
         "v_smith_ggx_anisotropic",
-        "optics/microfacet.glsl",
+        "optics/anisotropic_microfacet.glsl",
         [LIGHT[2], VIEW[2], LIGHT[0], LIGHT[1], VIEW[0], VIEW[1], ALPHA_T, ALPHA_T],
         "float",
     )

@@ -7,14 +7,17 @@ import re
 
 import pytest
 
+from gltf_iri.material.anisotropy import Anisotropy
+from gltf_iri.material.clearcoat import Clearcoat
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
+from gltf_iri.material.sheen import Sheen
 from gltf_iri.material.unlit import Unlit
 from gltf_iri.planning.decide import plan_material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.permutation import permutation
 from gltf_iri.rendering.programs import ProgramStore, surface_sources
-from gltf_iri.rendering.switches import SHADING_INPUTS
+from gltf_iri.rendering.switches import LAYER_INPUTS, SHADING_INPUTS
 
 LIT = (Effect.PUNCTUAL_LIGHTS, Effect.IMAGE_LIGHT)
 FILMED = Material(iridescence=Iridescence(factor=1.0))
@@ -47,6 +50,34 @@ def test_not_even_a_comment_of_the_film_is_left_in_a_shader_without_film():
     assert "iridescen" not in text
 
 
+def test_without_layers_there_is_no_code_of_layers():
+    traces = (
+        "clearcoat",
+        "coat_",
+        "sheen",
+        "charlie",
+        "anisotropic",
+        "tangent",
+        "transmi",
+        "volume",
+        "dispers",
+    )
+    for switches in ((), (SHADING_INPUTS,), (LAYER_INPUTS,)):
+        found = identifiers(Material(), switches=switches)
+        # What the targets of the second inputs are called is said in any case.
+        held = {name for name in found if not name.startswith("out_")}
+        assert not [name for name in held if any(trace in name.lower() for trace in traces)]
+
+
+def test_a_layer_brings_its_own_code_only():
+    coated = identifiers(Material(clearcoat=Clearcoat(factor=1.0)))
+    assert "punctual_clearcoat" in coated and "d_charlie" not in coated
+    cloth = identifiers(Material(sheen=Sheen((1.0, 1.0, 1.0))))
+    assert "d_charlie" in cloth and "punctual_clearcoat" not in cloth and "d_ggx_anisotropic" not in cloth
+    brushed = identifiers(Material(anisotropy=Anisotropy(0.5)))
+    assert "d_ggx_anisotropic" in brushed and "sheen_weight" not in brushed
+
+
 def test_an_unlit_material_has_no_lights_and_no_lobes():
     found = identifiers(Material(unlit=Unlit()))
     assert not found & {"d_ggx", "punctual_light", "environment_radiance", "mix_lobes"}
@@ -73,8 +104,18 @@ EXTRAS = (
     ("HAS_NORMAL_TEXTURE", "HAS_TANGENTS"),
     ("HAS_ALPHA_MASK", "HAS_EMISSION", "HAS_EMISSIVE_TEXTURE", "HAS_VERTEX_COLOR"),
     ("HAS_SPECULAR", "HAS_SPECULAR_TEXTURE", "HAS_SPECULAR_COLOR_TEXTURE", "HAS_ALPHA_BLEND"),
+    ("HAS_CLEARCOAT", LAYER_INPUTS),
+    ("HAS_CLEARCOAT", "HAS_CLEARCOAT_NORMAL_TEXTURE", "HAS_TANGENTS"),
+    ("HAS_SHEEN", "HAS_SHEEN_COLOR_TEXTURE", LAYER_INPUTS),
+    ("HAS_ANISOTROPY", "HAS_ANISOTROPY_TEXTURE"),
+    ("HAS_ANISOTROPY", "HAS_TANGENTS", LAYER_INPUTS),
+    ("HAS_TRANSMISSION", LAYER_INPUTS),
+    ("HAS_TRANSMISSION", "HAS_VOLUME", "HAS_ANISOTROPY", "HAS_CLEARCOAT", "HAS_SHEEN"),
     (*(e.define for e in Effect if e not in {Effect.UNLIT, *LIT}), "METHOD_KHR_GUARDED", SHADING_INPUTS),
 )
+
+
+LAYERS = {f"HAS_{name}" for name in ("IRIDESCENCE", "CLEARCOAT", "SHEEN", "ANISOTROPY", "TRANSMISSION")}
 
 
 @pytest.mark.parametrize(
@@ -83,8 +124,8 @@ EXTRAS = (
 def test_every_kind_of_permutation_compiles(gl_context, base, lights):
     programs = ProgramStore(gl_context)
     for extra in EXTRAS:
-        if "HAS_UNLIT" in base and "HAS_IRIDESCENCE" in extra:
-            continue  # KHR_materials_iridescence excludes unlit materials
+        if "HAS_UNLIT" in base and not LAYERS.isdisjoint(extra):
+            continue  # plans drop layers under unlit
         defines = tuple(dict.fromkeys((*base, *(() if "HAS_UNLIT" in base else lights), *extra)))
         assert programs.get(defines) is programs.get(defines)
     programs.release()
