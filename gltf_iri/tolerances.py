@@ -15,6 +15,7 @@ __all__ = [
     "GLSL_PIXEL_ROUGHNESS_MIN",
     "REFERENCE_DEPTH_RELATIVE",
     "REFERENCE_EDGE_PX",
+    "REFERENCE_STEP_PX",
     "SPECTRAL_COLOUR_MAX_ABS",
     "SPECTRAL_REFLECTANCE_MAX_ABS",
     "SPECTRAL_VERSUS_TMM_MAX_ABS",
@@ -51,3 +52,7 @@ REFERENCE_DEPTH_RELATIVE: Final = 1e-4
 # How near to an edge two renderers may see the triangles on either side of it: OpenGL rounds corners to 1/256
 # pixel (eight bits below the pixel here and on graphics cards), which moves an edge by up to 0.7 of that.
 REFERENCE_EDGE_PX: Final = 1.0 / 256.0
+
+# How far from a pixel's centre OpenGL may read a texture or a normal: float32 coordinates of textures of 2048
+# texels keep 1e-4 of a texel. Pixels that so small a step changes by more than the tolerance are not judged.
+REFERENCE_STEP_PX: Final = 1.0 / 4096.0

@@ -152,7 +152,7 @@ def _tell(comparison: Comparison, files: Mapping[str, Path], *, as_json: bool) -
 
 def _tell_reference(held: ReferenceResult) -> None:
     columns = (
-        *("material", "same problem: pixels", "max", "edges"),
+        *("material", "same problem: pixels", "max", "left out"),
         *("whole picture: ΔE mean", "p95", "max", "noise mean"),
     )
     result = held.to_json()
@@ -174,7 +174,11 @@ def _reference_row(label: str, same: Mapping[str, Any] | None, picture: Mapping[
     names = ("delta_e_mean", "delta_e_p95", "delta_e_max", "noise_delta_e_mean")
     exact = ("–", "–", "–")
     if same is not None:
-        exact = (str(same["rough"]["pixels"]), _figure(same["rough"]["max_relative"]), str(same["edges"]))
+        exact = (
+            str(same["rough"]["pixels"]),
+            _figure(same["rough"]["max_relative"]),
+            str(same["edges"] + same["steep"]),
+        )
     return (label, *exact, *(_figure(picture[name]) for name in names))
 
 

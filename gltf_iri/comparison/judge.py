@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.comparison.methods import BRANCH, TRUTH, film_method, white_of
 from gltf_iri.comparison.metric import Agreement, ColourError, agreement, colour_error, relative_deviation
-from gltf_iri.comparison.pixels import image_light_of_pixels, surface_of_pixels
+from gltf_iri.comparison.pixels import image_light_of_pixels, is_rough, surface_of_pixels
 from gltf_iri.comparison.result import Comparison, MaterialResult, PictureResult, Pictures, Split
 from gltf_iri.comparison.shade import shade
 from gltf_iri.errors import AssetError, UsageError
@@ -26,7 +26,6 @@ from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.film import FilmMethod
 from gltf_iri.rendering.frame import Frame, ShadingInputs
 from gltf_iri.scene.model import Camera, Light
-from gltf_iri.tolerances import GLSL_PIXEL_ROUGHNESS_MIN
 
 __all__ = ["Shot", "inputs_of", "judge"]
 
@@ -177,8 +176,8 @@ def _split(inputs: ShadingInputs, mask: Mask, pictures: Pictures) -> Split:
     def over(rows: Mask) -> Agreement:
         return agreement(pictures.glsl[rows], pictures.python[rows])
 
-    is_rough = inputs.perceptual_roughness >= np.float32(GLSL_PIXEL_ROUGHNESS_MIN)
-    return Split(over(mask), over(mask & is_rough), over(mask & ~is_rough))
+    rough = is_rough(inputs)
+    return Split(over(mask), over(mask & rough), over(mask & ~rough))
 
 
 def _eight_bit(

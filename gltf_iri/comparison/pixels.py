@@ -11,8 +11,9 @@ from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN
 from gltf_iri.reference.surface import Surface
 from gltf_iri.rendering.frame import ShadingInputs
 from gltf_iri.scene.model import Camera
+from gltf_iri.tolerances import GLSL_PIXEL_ROUGHNESS_MIN
 
-__all__ = ["ImageLight", "image_light_of_pixels", "surface_of_pixels"]
+__all__ = ["ImageLight", "image_light_of_pixels", "is_rough", "surface_of_pixels"]
 
 Float64 = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -89,6 +90,13 @@ def image_light_of_pixels(inputs: ShadingInputs, mask: Mask) -> ImageLight:
         clearcoat_b=albedos[:, 1],
         sheen_albedo=albedos[:, 2],
     )
+
+
+def is_rough(inputs: ShadingInputs) -> Mask:
+    """Return where (height, width) every lobe of facets is rough enough to be judged, the coat's included."""
+    least = np.float32(GLSL_PIXEL_ROUGHNESS_MIN)
+    coat = (inputs.clearcoat_roughness >= least) | (inputs.clearcoat == 0.0)
+    return np.asarray((inputs.perceptual_roughness >= least) & coat)
 
 
 @dataclass(frozen=True, slots=True)

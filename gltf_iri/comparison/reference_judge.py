@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.comparison.metric import agreement, colour_error
+from gltf_iri.comparison.pixels import is_rough
 from gltf_iri.comparison.reference_result import NoisyError, SameProblem
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.render import ReferenceFrame
 from gltf_iri.rendering.frame import ShadingInputs
 from gltf_iri.scene.model import Camera
-from gltf_iri.tolerances import GLSL_PIXEL_ROUGHNESS_MIN, REFERENCE_DEPTH_RELATIVE, REFERENCE_EDGE_PX
+from gltf_iri.tolerances import GLSL_PIXEL_RELATIVE, REFERENCE_DEPTH_RELATIVE, REFERENCE_EDGE_PX
 
 __all__ = ["delta_e_picture", "is_see_through", "noisy_error", "same_problem", "same_surface"]
 
@@ -43,18 +44,23 @@ def same_surface(inputs: ShadingInputs, reference: ReferenceFrame, camera: Camer
     return np.asarray((inputs.material >= 0) & (inputs.material == reference.material) & is_near & is_inside)
 
 
-def same_problem(inputs: ShadingInputs, reference: ReferenceFrame, mask: Mask, is_same: Mask) -> SameProblem:
+def same_problem(
+    inputs: ShadingInputs, reference: ReferenceFrame, mask: Mask, is_same: Mask, steepness: Float64
+) -> SameProblem:
     """Compare the pixels (height, width) of `mask` on which both renderers met the same surface.
 
-    Both pictures are of punctual light and emission alone, on surfaces drawn as if opaque.
+    Both pictures are of punctual light and emission alone, on surfaces drawn as if opaque. Pixels whose
+    `steepness` exceeds the tolerance are left out.
     """
-    is_rough = inputs.perceptual_roughness >= np.float32(GLSL_PIXEL_ROUGHNESS_MIN)
-    rough, smooth = (mask & is_same & rows for rows in (is_rough, ~is_rough))
+    is_steep = steepness > GLSL_PIXEL_RELATIVE
+    rough = mask & is_same & ~is_steep & is_rough(inputs)
+    smooth = mask & is_same & ~is_steep & ~is_rough(inputs)
     glsl, exact = inputs.colour.astype(np.float64), reference.rgba[..., :3]
     return SameProblem(
         agreement(glsl[rough], exact[rough]),
         agreement(glsl[smooth], exact[smooth]),
         int((mask & ~is_same).sum()),
+        int((mask & is_same & is_steep).sum()),
     )
 
 

@@ -41,12 +41,14 @@ class NoisyError:
 class SameProblem:
     """Punctual light and emission on opaque pixels, which both solve exactly.
 
-    edges : pixels left out because an edge runs through them, on either side of which the two may fall.
+    edges : pixels left out because an edge runs so near that the two may see either side of it.
+    steep : pixels left out because REFERENCE_STEP_PX changes them by more than the tolerance.
     """
 
     rough: Agreement  # judged
     smooth: Agreement  # reported only
     edges: int
+    steep: int
 
     @property
     def agrees(self) -> bool:
@@ -55,7 +57,12 @@ class SameProblem:
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract's ``same_problem``."""
-        return {"rough": asdict(self.rough), "smooth": asdict(self.smooth), "edges": self.edges}
+        return {
+            "rough": asdict(self.rough),
+            "smooth": asdict(self.smooth),
+            "edges": self.edges,
+            "steep": self.steep,
+        }
 
 
 @dataclass(frozen=True, slots=True)

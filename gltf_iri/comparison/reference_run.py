@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -18,8 +18,9 @@ from gltf_iri.comparison.reference_judge import (
     same_problem,
     same_surface,
 )
-from gltf_iri.comparison.reference_result import NoisyError, ReferenceMaterial, ReferenceResult
+from gltf_iri.comparison.reference_result import NoisyError, ReferenceMaterial, ReferenceResult, SameProblem
 from gltf_iri.comparison.rig import RIG, rig
+from gltf_iri.comparison.steepness import steepness
 from gltf_iri.planning.decide import complete_plans
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.render import ReferenceFrame, render_reference
@@ -37,7 +38,7 @@ Mask = NDArray[np.bool_]
 
 def count_steps(size: tuple[int, int]) -> int:
     """Return how often `against_reference` calls `advance` for a picture of this size."""
-    return 2 * count_tiles(size)
+    return 4 * count_tiles(size)
 
 
 def against_reference(
@@ -67,7 +68,7 @@ def against_reference(
     started = time.perf_counter()
     plans = complete_plans(plans, scene)
     factor = 2.0**exposure
-    inputs, exact, lights = _same_problem(renderer, model, scene, plans, camera, size, advance)
+    exact = _draw_exactly(renderer, model, scene, plans, camera, size, advance)
     estimate = render_reference(
         model,
         scene,
@@ -84,29 +85,29 @@ def against_reference(
     glsl = draw(scene, plans, camera, environment).rgba[..., :3].astype(np.float64)
     behind = draw(replace(scene, primitives=()), plans, camera, environment).rgba[..., :3]
     mean = estimate.rgba[..., :3] + (1.0 - estimate.rgba[..., 3:]) * behind
-    is_same = same_surface(inputs, exact, camera)
 
     def error(mask: Mask) -> NoisyError:
-        return noisy_error(glsl, mean, estimate.standard_error, mask & is_same, factor)
+        return noisy_error(glsl, mean, estimate.standard_error, mask & exact.is_same, factor)
 
-    drawn = inputs.material >= 0
-    through = np.isin(inputs.material, [slot for slot, plan in enumerate(plans) if is_see_through(plan)])
+    material = exact.inputs.material
+    drawn = material >= 0
+    through = np.isin(material, [slot for slot, plan in enumerate(plans) if is_see_through(plan)])
     materials = tuple(
         ReferenceMaterial(
             plan.index,
             plan.name,
             is_see_through(plan),
-            same_problem(inputs, exact, (inputs.material == slot) & ~through, is_same),
-            error(inputs.material == slot),
+            exact.compare((material == slot) & ~through),
+            error(material == slot),
         )
         for slot, plan in enumerate(plans)
-        if (inputs.material == slot).any()
+        if (material == slot).any()
     )
     return ReferenceResult(
-        lights=lights,
+        lights=exact.lights,
         samples={"image_samples": image_samples, "paths": paths},
         seconds=time.perf_counter() - started,
-        same_problem=same_problem(inputs, exact, drawn & ~through, is_same),
+        same_problem=exact.compare(drawn & ~through),
         opaque=error(drawn & ~through),
         see_through=error(through),
         whole=error(drawn),
@@ -114,11 +115,25 @@ def against_reference(
         glsl=glsl,
         picture=mean,
         drawn=drawn,
-        delta_e=delta_e_picture(glsl, mean, drawn & is_same, factor),
+        delta_e=delta_e_picture(glsl, mean, drawn & exact.is_same, factor),
     )
 
 
-def _same_problem(
+@dataclass(frozen=True, slots=True)
+class _Exact:
+    """Both renderers' pictures of what both solve exactly."""
+
+    inputs: ShadingInputs
+    reference: ReferenceFrame
+    is_same: Mask  # (height, width), both met the same surface
+    steepness: Float64  # (height, width)
+    lights: str  # in words
+
+    def compare(self, mask: Mask) -> SameProblem:
+        return same_problem(self.inputs, self.reference, mask, self.is_same, self.steepness)
+
+
+def _draw_exactly(
     renderer: Renderer,
     model: Model,
     scene: Scene,
@@ -126,22 +141,25 @@ def _same_problem(
     camera: Camera,
     size: tuple[int, int],
     advance: Callable[[], None],
-) -> tuple[ShadingInputs, ReferenceFrame, str]:
-    """Return both renderers' pictures of what both solve exactly, and what the light is, in words."""
+) -> _Exact:
     lights = "the scene's own"
     if not scene.lights:
         scene, lights = replace(scene, lights=rig(scene, camera)), RIG
-    exact = render_reference(
-        model,
-        scene,
-        plans,
-        camera,
-        None,
-        size=size,
-        lighting="punctual",
-        is_blending=False,
-        advance=advance,
-    )
+
+    def cast(from_camera: Camera) -> ReferenceFrame:
+        return render_reference(
+            model,
+            scene,
+            plans,
+            from_camera,
+            None,
+            size=size,
+            lighting="punctual",
+            is_blending=False,
+            advance=advance,
+        )
+
+    reference = cast(camera)
     frame = renderer.render(
         model,
         scene,
@@ -153,4 +171,6 @@ def _same_problem(
         sharp_textures=True,
         with_inputs=True,
     )
-    return inputs_of(frame), exact, lights
+    inputs = inputs_of(frame)
+    changes = steepness(lambda other: cast(other).rgba[..., :3], camera, size, reference.rgba[..., :3])
+    return _Exact(inputs, reference, same_surface(inputs, reference, camera), changes, lights)

@@ -7,9 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gltf_iri.comparison.pixels import is_rough
 from gltf_iri.comparison.reference_judge import is_see_through, noisy_error, same_problem, same_surface
 from gltf_iri.comparison.rig import rig
+from gltf_iri.comparison.steepness import moved
 from gltf_iri.planning.effects import Effect
+from gltf_iri.reference.rays import camera_rays
 from gltf_iri.reference.render import ReferenceFrame
 from gltf_iri.scene.illuminance import arriving
 from gltf_iri.scene.model import Primitive, Scene
@@ -47,10 +50,21 @@ def test_pixels_on_edges_are_counted_and_not_compared(row_of_pixels) -> None:
     reference.rgba[0, 1, :3] += 0.5
     everywhere = np.ones((1, 3), np.bool_)
     is_same = np.array([[True, False, True]])
-    result = same_problem(inputs, reference, everywhere, is_same)
-    assert (result.rough.pixels, result.edges) == (2, 1)
+    flat = np.zeros((1, 3))
+    result = same_problem(inputs, reference, everywhere, is_same, flat)
+    assert (result.rough.pixels, result.edges, result.steep) == (2, 1, 0)
     assert result.rough.max_relative == 0.0
-    assert not same_problem(inputs, reference, everywhere, everywhere).agrees
+    assert not same_problem(inputs, reference, everywhere, everywhere, flat).agrees
+
+
+def test_pixels_that_hang_on_a_rounding_are_counted_and_not_compared(row_of_pixels) -> None:
+    inputs = row_of_pixels(2)
+    reference = reference_of(inputs)
+    reference.rgba[0, 1, :3] += 0.5
+    everywhere = np.ones((1, 2), np.bool_)
+    result = same_problem(inputs, reference, everywhere, everywhere, np.array([[0.0, 0.1]]))
+    assert (result.rough.pixels, result.edges, result.steep) == (1, 0, 1)
+    assert result.agrees
 
 
 def test_smooth_pixels_are_reported_but_not_judged(row_of_pixels) -> None:
@@ -58,10 +72,31 @@ def test_smooth_pixels_are_reported_but_not_judged(row_of_pixels) -> None:
     reference = reference_of(inputs)
     reference.rgba[..., :3] += 1.0
     everywhere = np.ones((1, 2), np.bool_)
-    result = same_problem(inputs, reference, everywhere, everywhere)
+    result = same_problem(inputs, reference, everywhere, everywhere, np.zeros((1, 2)))
     assert result.agrees
     assert result.rough.pixels == 0
     assert result.smooth.max_abs > GLSL_PIXEL_RELATIVE
+
+
+def test_a_smooth_coat_keeps_a_rough_base_from_being_judged(row_of_pixels) -> None:
+    assert is_rough(row_of_pixels(clearcoat=0.5, clearcoat_roughness=0.3)).all()
+    assert not is_rough(row_of_pixels(clearcoat=0.5, clearcoat_roughness=0.1)).any()
+    assert is_rough(row_of_pixels(clearcoat=0, clearcoat_roughness=0.1)).all()
+
+
+@pytest.mark.parametrize("kind", ["perspective", "orthographic"])
+def test_a_moved_camera_sees_what_lies_beside_the_middle(camera, kind) -> None:
+    """What was 3 pixels to the right of the middle and 2 below it is now there; far and near alike."""
+    size = (64, 48)
+    lens = replace(camera, kind=kind, zfar_m=10.0, xmag_m=0.4, ymag_m=0.3)
+    origins, directions, _ = camera_rays(lens, size)
+    place = (48 // 2 + 2) * 64 + 64 // 2 + 3
+    rays = camera_rays(moved(lens, size, (3.0, 2.0)), size)
+    middle = 48 // 2 * 64 + 64 // 2
+    for t in (0.0, 1.0):
+        wanted = origins[place] + t * directions[place]
+        # Turned, the picture's pixels are a little wider apart: 3 pixels are some 0.05 of the lens.
+        np.testing.assert_allclose(rays[0][middle] + t * rays[1][middle], wanted, atol=2e-4)
 
 
 def test_a_difference_of_one_standard_error_is_as_large_as_the_noise() -> None:

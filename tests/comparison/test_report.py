@@ -82,7 +82,7 @@ def held(judged):
     comparison = judged(name=HOSTILE)
     shown = comparison.pictures
     nothing = agreement(np.zeros((0, 3)), np.zeros((0, 3)))
-    same = SameProblem(agreement(shown.glsl[shown.drawn], shown.python[shown.drawn]), nothing, 1)
+    same = SameProblem(agreement(shown.glsl[shown.drawn], shown.python[shown.drawn]), nothing, 1, 0)
     noisy = noisy_error(shown.glsl, shown.glsl, 0.01 * shown.glsl, shown.drawn, 1.0)
     none = noisy_error(shown.glsl, shown.glsl, shown.glsl, ~shown.drawn, 1.0)
     result = ReferenceResult(
