@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
+from gltf_iri.optics.sheen import SHEEN_ALPHA_MIN, sheen_albedo
 from gltf_iri.rendering.fullscreen import compute_texture
 
 if TYPE_CHECKING:
@@ -12,21 +15,30 @@ if TYPE_CHECKING:
 __all__ = ["compute_dfg_table", "compute_sheen_table"]
 
 _DFG_SIZE: Final = (128, 128)
-_SHEEN_SIZE: Final = (128, 64)
+# Filtering is off by 3e-5 at sheen roughness above 0.3, and below by up to 4e-3 beside albedos held at 1.
+_SHEEN_SIZE: Final = (512, 256)
 
 
 def compute_dfg_table(context: moderngl.Context) -> moderngl.Texture:
     """Return the table of (A, B) over √(N·V) and perceptual roughness; the caller releases it."""
-    return _table(context, "pass/dfg.frag", _DFG_SIZE, 2)
+    table = compute_texture(context, "pass/dfg.frag", _DFG_SIZE, 2, {"u_size": _DFG_SIZE}, {})
+    return _filtered(context, table)
 
 
 def compute_sheen_table(context: moderngl.Context) -> moderngl.Texture:
-    """Return the table of E_s over √(N·V) and sheen roughness; the caller releases it."""
-    return _table(context, "pass/sheen_albedo.frag", _SHEEN_SIZE, 1)
+    """Return the table of E_s over ⁴√(N·V) and sheen roughness; the caller releases it.
+
+    Where texels lie is said in shaders/lighting/sheen_albedo.glsl.
+    """
+    n_dot_v, row = (np.linspace(0.0, 1.0, count) for count in _SHEEN_SIZE)
+    roughness_min = SHEEN_ALPHA_MIN**0.5
+    albedo = sheen_albedo(n_dot_v**4, (roughness_min + (1.0 - roughness_min) * row)[:, None])
+    return _filtered(
+        context, context.texture(_SHEEN_SIZE, 1, albedo.astype(np.float32).tobytes(), dtype="f4")
+    )
 
 
-def _table(context: moderngl.Context, entry: str, size: tuple[int, int], components: int) -> moderngl.Texture:
-    table = compute_texture(context, entry, size, components, {"u_size": size}, {})
+def _filtered(context: moderngl.Context, table: moderngl.Texture) -> moderngl.Texture:
     table.repeat_x = table.repeat_y = False
     table.filter = (context.LINEAR, context.LINEAR)
     return table

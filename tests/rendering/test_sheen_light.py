@@ -42,11 +42,11 @@ def table(_session_context):
 @pytest.mark.usefixtures("gl_context")
 def test_the_table_holds_the_integral_and_at_most_1(table):
     height, width = table.shape
-    for row in range(0, height, 9):
+    for row in range(0, height, 51):
         roughness = SHEEN_ROUGHNESS_MIN + (1.0 - SHEEN_ROUGHNESS_MIN) * row / (height - 1)
-        for column in range(8, width, 17):
-            expected = min(integrated((column / (width - 1)) ** 2, roughness), 1.0)
-            assert table[row, column] == pytest.approx(expected, abs=1e-3)
+        for column in range(73, width, 73):
+            expected = min(integrated((column / (width - 1)) ** 4, roughness), 1.0)
+            assert table[row, column] == pytest.approx(expected, abs=2e-5)
 
 
 @pytest.mark.usefixtures("gl_context")
