@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from gltf_iri.cli.picture_options import EMPTY_PICTURE
@@ -82,6 +82,7 @@ class Drawn:
     draw: Callable[[Camera, Callable[[], None]], Frame]
     renderer: str = ""
     milliseconds: float = 0.0
+    passes: dict[str, float] = field(default_factory=dict)  # milliseconds of each part
     notes: tuple[str, ...] = ()
 
     def pictures(self, views: Sequence[Camera], advance: Callable[[], None]) -> Iterator[NDArray[np.float32]]:
@@ -91,6 +92,8 @@ class Drawn:
             frame = self.draw(view, advance)
             self.renderer = frame.renderer
             self.milliseconds += frame.milliseconds
+            for name, spent in frame.passes.items():
+                self.passes[name] = self.passes.get(name, 0.0) + spent
             is_empty = is_empty and not frame.rgba[..., 3].any()
             empty = (EMPTY_PICTURE,) if is_empty and view is views[-1] else ()
             self.notes = tuple(dict.fromkeys((*self.notes, *frame.notes, *empty)))

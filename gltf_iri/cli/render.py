@@ -133,6 +133,7 @@ def command(
         "size": list(size),
         "renderer": drawn.renderer,
         "ms": round(drawn.milliseconds, 3),
+        "passes": {name: round(spent, 3) for name, spent in drawn.passes.items()},
         "method": next((plan.method for plan in used if plan.method is not None), None),
         "environment": environment.name if environment else None,
         "exposure": exposure_ev,

@@ -68,6 +68,7 @@ def test_json_tells_what_was_drawn(gl_context, triangle, tmp_path, capsys, name)
     assert told["exposure"] == 0.0
     assert told["size"] == [32, 24]
     assert told["renderer"] and told["ms"] > 0.0
+    assert {"image light", "uploads", "opaque", "background", "read"} <= set(told["passes"])
     assert told["method"] == "khr-guarded"
     assert told["environment"] == "white"
 
