@@ -30,7 +30,7 @@ from gltf_iri.rendering.prepare import (
 )
 from gltf_iri.rendering.programs import ProgramStore, check_method
 from gltf_iri.rendering.punctual_lights import lights_texture
-from gltf_iri.rendering.see_through import group_sheets, sheets_in_order
+from gltf_iri.rendering.see_through import MAX_CAPTURES, group_sheets, sheets_in_order
 from gltf_iri.rendering.targets import Targets, check_size, shading_inputs
 from gltf_iri.rendering.textures import TextureStore
 from gltf_iri.rendering.view import background_uniforms, view_uniforms
@@ -138,7 +138,7 @@ class Renderer:
                         light,
                     )
                 )
-            self._draw_surfaces(draws, targets, camera, size, times)
+            notes = self._draw_surfaces(draws, targets, camera, size, times)
             if environment is not None:
                 if self._background is None:
                     self._background = Background(self.context)
@@ -154,7 +154,7 @@ class Renderer:
                 rgba,
                 renderer_name(self.context),
                 times.drawing,
-                (*_notes(draws, surroundings, with_inputs=with_inputs), *_overflow(rgba)),
+                (*_notes(draws, surroundings, with_inputs=with_inputs), *notes, *_overflow(rgba)),
                 inputs,
                 times.milliseconds,
             )
@@ -182,15 +182,16 @@ class Renderer:
         camera: Camera,
         size: tuple[int, int],
         times: PassTimes,
-    ) -> None:
-        """Draw what is opaque, then what is not from the farthest to the nearest, into all targets."""
+    ) -> tuple[str, ...]:
+        """Draw what is opaque, then what is not from the farthest to the nearest; return notes on it."""
         for name, target in targets.items():
             with times.measure("opaque" if name == PICTURE else "shading inputs"):
                 target.drawn.use()
                 target.clear()
                 draw_opaque(self.context, draws, name)
         captured: Mapping[str, moderngl.Texture] = {}
-        for group in group_sheets(sheets_in_order(draws, camera, size)):
+        groups = tuple(group_sheets(sheets_in_order(draws, camera, size)))
+        for group in groups:
             if group.is_capturing:
                 with times.measure("captures"):
                     captured = self._capture(targets[PICTURE], camera, size)
@@ -206,6 +207,12 @@ class Renderer:
                             target=name,
                             is_blending=name == PICTURE,
                         )
+        if sum(group.is_capturing for group in groups) < MAX_CAPTURES:
+            return ()
+        return (
+            f"Transmissive surfaces lie over each other {MAX_CAPTURES} deep or more; the nearest of them see "
+            "the same picture behind them.",
+        )
 
     def _capture(
         self, target: Targets, camera: Camera, size: tuple[int, int]

@@ -79,6 +79,18 @@ def test_the_number_of_captures_is_bounded(props):
     assert sum(len(group.sheets) for group in found) == len(panes)
 
 
+def test_a_bound_that_is_reached_is_told(stage, props):
+    def frame(count):
+        panes = [
+            props.quad(world=draw(props.quad(), GLASS, (0, 0, 0.01 * i)).primitive.world)
+            for i in range(count)
+        ]
+        return stage.draw(panes, GLASS, size=(8, 8), samples=0)
+
+    assert any("deep" in note for note in frame(MAX_CAPTURES).notes)
+    assert not any("deep" in note for note in frame(MAX_CAPTURES - 1).notes)
+
+
 def test_what_reaches_behind_the_eye_may_cover_everything(props):
     around = [draw(props.sphere(), GLASS, (0, 0, 0), 20.0), draw(props.sphere(), GLASS, (3, 3, 0), 0.1)]
     assert [group.is_capturing for group in groups(around, props.camera(4.0))] == [True, True]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,7 +12,7 @@ from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.material.specular import Specular
-from gltf_iri.material.texture import TextureInfo
+from gltf_iri.material.texture import TextureInfo, TextureTransform
 from gltf_iri.material.transmission import Transmission
 from gltf_iri.material.unlit import Unlit
 from gltf_iri.material.volume import Volume
@@ -34,8 +36,9 @@ def placed(shape, z, material, size=1.0):
     return shape(world=world, material=material)
 
 
+@pytest.fixture(scope="module")
 def slanted_sky():
-    """Brighter upwards, redder to the right, and no direction like another."""
+    """Brighter upwards, redder to the right; one object, so that it is prefiltered once."""
     rows, columns = np.meshgrid(np.linspace(1, 0.2, 32), np.linspace(0.1, 1, 64), indexing="ij")
     return Environment("sky", np.stack([columns, rows, 0.5 + 0 * rows], axis=-1).astype(np.float32))
 
@@ -51,13 +54,13 @@ def checks(props, images):
 
 @pytest.mark.parametrize("samples", [0, 4])
 @pytest.mark.parametrize("volume", [None, Volume(thickness_factor_m=0.5)])
-def test_glass_of_index_1_leaves_the_scene_behind_it_as_it_is(stage, props, volume, samples):
+def test_glass_of_index_1_leaves_the_scene_behind_it_as_it_is(stage, props, slanted_sky, volume, samples):
     images = props.Images()
     back, wall = checks(props, images)
     clear = glass(ior=Ior(1.0), specular=NO_REFLECTION, volume=volume)
     options = {
         "images": images,
-        "environment": slanted_sky(),
+        "environment": slanted_sky,
         "seen_from": props.camera(),
         "samples": samples,
         "size": (96, 96),
@@ -101,6 +104,32 @@ def test_the_transmission_share_is_that_of_the_factor_and_the_texture(stage, pro
     material = glass(specular=NO_REFLECTION, transmission=transmission)
     frame = stage.draw(props.quad(), material, images=images, environment=furnace, with_inputs=True)
     assert frame.inputs.transmission[32, 32] == pytest.approx(0.5 * 128 / 255, rel=1e-6)
+
+
+@pytest.mark.parametrize("slot", ["transmission", "thickness"])
+def test_transmission_and_thickness_are_turned_and_may_read_the_second_uv_set(stage, props, furnace, slot):
+    """A quarter turn, u′ = v and v′ = −u: the upper left corner reads the lower left texel, and so on."""
+    images = props.Images()
+    texels = [[[value, value, 0, 255] for value in row] for row in ((0, 51), (102, 204))]
+    turned = TextureTransform(rotation_rad=np.pi / 2, tex_coord=1)
+    texture = TextureInfo(images.add(texels), transform=turned)
+    transmission = Transmission(factor=1.0, texture=texture if slot == "transmission" else None)
+    volume = Volume(
+        thickness_factor_m=1.0,
+        thickness_texture=texture if slot == "thickness" else None,
+        attenuation_distance_m=1.0,
+        attenuation_color=(0.5, 0.5, 0.5),
+    )
+    material = glass(specular=NO_REFLECTION, transmission=transmission, volume=volume)
+    quad = props.quad()
+    quad = replace(quad, uvs=(quad.uvs[0] * 0.0, quad.uvs[0]))
+    frame = stage.draw(quad, material, images=images, environment=furnace, with_inputs=True)
+    corners = [(8, 8), (8, 56), (56, 8), (56, 56)]
+    if slot == "transmission":
+        found = [frame.inputs.transmission[place] for place in corners]
+    else:
+        found = [-np.log2(frame.inputs.transmitted_radiance[place][0]) for place in corners]
+    assert found == pytest.approx([102 / 255, 0.0, 204 / 255, 51 / 255], abs=1e-6)
 
 
 def test_thickness_is_in_green(stage, props, furnace):
@@ -206,7 +235,7 @@ def test_dispersion_bends_blue_more_than_red(stage, props):
     assert red > green > blue > 0
 
 
-def test_the_inputs_hold_what_arrives_and_their_colour_is_the_pictures(stage, props):
+def test_the_inputs_hold_what_arrives_and_their_colour_is_the_pictures(stage, props, slanted_sky):
     images = props.Images()
     back, wall = checks(props, images)
     things = [back, placed(props.sphere, 0.0, 1, size=0.8)]
@@ -215,7 +244,7 @@ def test_the_inputs_hold_what_arrives_and_their_colour_is_the_pictures(stage, pr
         things,
         [wall, material],
         images=images,
-        environment=slanted_sky(),
+        environment=slanted_sky,
         seen_from=props.camera(),
         with_inputs=True,
     )
