@@ -1,16 +1,21 @@
-// Where the DFG table keeps (N·V, perceptual roughness): texel centres from edge to edge, and √(N·V) across, for
-// the table bends most at grazing angles.
+// Where the DFG table keeps (N·V, perceptual roughness): texel centres from edge to edge, ⁴√(N·V) across and
+// √roughness down, each from where it is no longer held at its least; the table bends most at grazing angles and
+// near mirrors.
 
-vec2 dfg_arguments(vec2 pixel, vec2 size) {
-    vec2 x = (pixel - 0.5) / (size - 1.0);
-    return vec2(x.x * x.x, x.y);
-}
+#include "generated/constants.glsl"
 
 uniform sampler2D u_dfg;  // bound wherever a surface is shaded, also without an environment
 
-// (A, B): a rough mirror under a white environment reflects F0·A + B.
+const vec2 DFG_FIRST = vec2(sqrt(sqrt(N_DOT_V_MIN)), sqrt(sqrt(ALPHA_MIN)));  // √roughness = ⁴√α
+
+vec2 dfg_arguments(vec2 pixel, vec2 size) {
+    vec2 x = mix(DFG_FIRST, vec2(1.0), (pixel - 0.5) / (size - 1.0));
+    return vec2(x.x * x.x * x.x * x.x, x.y * x.y);
+}
+
+// (A, B): a rough mirror under a white environment reflects F0·A + B. Twin: gltf_iri/optics/dfg.py.
 vec2 dfg_terms(sampler2D table, float n_dot_v, float perceptual_roughness) {
     vec2 size = vec2(textureSize(table, 0));
-    vec2 x = vec2(sqrt(n_dot_v), perceptual_roughness);
-    return texture(table, (x * (size - 1.0) + 0.5) / size).rg;
+    vec2 x = max(vec2(sqrt(sqrt(n_dot_v)), sqrt(perceptual_roughness)), DFG_FIRST);
+    return texture(table, ((x - DFG_FIRST) / (1.0 - DFG_FIRST) * (size - 1.0) + 0.5) / size).rg;
 }

@@ -1,52 +1,55 @@
-// The DFG table: A = ⟨(1 − Fc) G⟩, B = ⟨Fc G⟩ over the facets that the viewer sees, Fc = (1 − V·H)⁵.
-// Karis 2013, "Real Shading in Unreal Engine 4"; facets by Dupuy & Benyoub 2023, "Sampling Visible GGX Normals with
-// Spherical Caps", Listing 3. Each visible facet then weighs G₂/G₁ ≤ 1, so A + B never exceeds 1.
+// The DFG table: A = ⟨(1 − Fc) G⟩, B = ⟨Fc G⟩, Fc = (1 − V·H)⁵. Karis 2013, "Real Shading in Unreal Engine 4".
+// The quadrature is that of `integrate_dfg` in gltf_iri/optics/dfg.py, which says why it is smooth.
 
 #include "common/math.glsl"
 #include "generated/constants.glsl"
 #include "lighting/dfg.glsl"
+#include "optics/microfacet.glsl"
 
 uniform vec2 u_size;
+// Gauss points and weights of ∫₀¹: over the slope of the facets, for each of two panels, and over half a turn.
+uniform vec2 u_slopes[24];
+uniform vec2 u_turns[8];
 
 out vec2 out_terms;
 
-const int CAP_STEPS = 64;
-const int TURN_STEPS = 24;  // over half a turn: the other half mirrors it
-
-// Λ = ½ (√(1 + α² tan²θ) − 1), Heitz 2014, Eq. 72
-float smith_lambda(float cos_theta, float alpha) {
-    return 0.5 * (sqrt(1.0 + sq(alpha) * (1.0 / sq(cos_theta) - 1.0)) - 1.0);
+// Light of facets from x = low to high, tan θ = α tan x.
+vec2 panel(float n_dot_v, float alpha, float low, float high) {
+    float sin_v = sqrt(1.0 - sq(n_dot_v));
+    vec2 sum = vec2(0.0);
+    for (int i = 0; i < u_slopes.length(); ++i) {
+        // x runs as sin², which takes the square root out of φ_max at the ends of the panels.
+        float ramp = 0.5 * PI * u_slopes[i].x;
+        float x = low + (high - low) * sq(sin(ramp));
+        float dx = (high - low) * PI * sin(ramp) * cos(ramp) * u_slopes[i].y;
+        vec2 facet = vec2(cos(x), alpha * sin(x));  // cos θ, sin θ, once of length 1
+        facet = normalize(facet);
+        // Facets whose mirror direction lies below the surface send nothing. The floor stands for 0/0 where V or
+        // the facet lies along N: there every φ counts.
+        float limit = n_dot_v * (2.0 * sq(facet.y) - 1.0) / max(2.0 * sin_v * facet.x * facet.y, 1e-30);
+        float phi_max = acos(clamp(limit, -1.0, 1.0));
+        vec2 ring = vec2(0.0);
+        for (int j = 0; j < u_turns.length(); ++j) {
+            float v_dot_h = sin_v * facet.y * cos(phi_max * u_turns[j].x) + n_dot_v * facet.x;
+            float n_dot_l = max(2.0 * v_dot_h * facet.x - n_dot_v, 0.0);  // rounding may put the last a hair below
+            float sent = v_smith_ggx_correlated(n_dot_l, n_dot_v, alpha) * n_dot_l * v_dot_h / facet.x;
+            float grazing = pow5(1.0 - v_dot_h);
+            ring += u_turns[j].y * sent * vec2(1.0 - grazing, grazing);
+        }
+        // D·cosθ·sinθ dθ = sin x cos x dx / π, for both halves of the turn.
+        sum += 8.0 / PI * sin(x) * cos(x) * dx * phi_max * ring;
+    }
+    return sum;
 }
 
 void main() {
     vec2 arguments = dfg_arguments(gl_FragCoord.xy, u_size);
-    float n_dot_v = max(arguments.x, N_DOT_V_MIN);
-    float alpha = max(sq(arguments.y), ALPHA_MIN);
-    vec3 v = vec3(sqrt(1.0 - sq(n_dot_v)), 0.0, n_dot_v);
-    vec3 v_stretched = normalize(vec3(alpha * v.xy, v.z));
-    float lambda_v = smith_lambda(n_dot_v, alpha);
-
-    vec2 sum = vec2(0.0);
-    for (int i = 0; i < CAP_STEPS; ++i) {
-        // The rest of the cap shrinks as t², with weight 2t: the few facets far off the normal lie at its end.
-        float t = (float(i) + 0.5) / float(CAP_STEPS);
-        float z = 1.0 - (1.0 - sq(t)) * (1.0 + v_stretched.z);
-        float radius = sqrt(max(1.0 - sq(z), 0.0));  // rounding may leave z slightly below −1
-        vec2 ring = vec2(0.0);
-        for (int j = 0; j < TURN_STEPS; ++j) {
-            float turn = PI * (float(j) + 0.5) / float(TURN_STEPS);
-            vec3 h_stretched = vec3(radius * cos(turn), radius * sin(turn), z) + v_stretched;
-            vec3 h = normalize(vec3(alpha * h_stretched.xy, h_stretched.z));
-            float v_dot_h = dot(v, h);
-            float n_dot_l = 2.0 * v_dot_h * h.z - v.z;
-            if (n_dot_l > 0.0) {
-                float seen = (1.0 + lambda_v) / (1.0 + lambda_v + smith_lambda(n_dot_l, alpha));
-                float fc = pow5(1.0 - v_dot_h);
-                ring += seen * vec2(1.0 - fc, fc);
-            }
-        }
-        sum += 2.0 * t * ring / float(TURN_STEPS);
-    }
+    float n_dot_v = clamp(arguments.x, N_DOT_V_MIN, 1.0);
+    float alpha = clamp(sq(arguments.y), ALPHA_MIN, 1.0);
+    // tan(π/4 ± θ_v/2), between which φ_max leaves half a turn.
+    float steep = (1.0 + sqrt(1.0 - sq(n_dot_v))) / n_dot_v;
+    float middle = atan(1.0 / (steep * alpha)), end = atan(steep / alpha);
+    vec2 terms = panel(n_dot_v, alpha, 0.0, middle) + panel(n_dot_v, alpha, middle, end);
     // The larger divisor takes back what rounding may have added to a sum of ones.
-    out_terms = sum / max(float(CAP_STEPS), sum.x + sum.y);
+    out_terms = terms / max(1.0, terms.x + terms.y);
 }
