@@ -24,7 +24,8 @@ vec3 environment_layer(vec2 uv, int layer) {
 }
 
 // Radiance from `direction` as a lobe of the given roughness sees it. `spread_rad`: angle between the directions of
-// neighbouring pixels, below which the sharp map must not be sampled.
+// neighbouring pixels: the sharp map and its lamps are averaged over as much. Layers are not: their lobes have tails,
+// and a wider one would carry bright light to where no direction in the pixel meets it.
 vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spread_rad) {
     vec2 uv = equirect_from_direction(direction);
     float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
@@ -39,8 +40,8 @@ vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spre
         rest = mix(textureLod(u_environment_rest, uv, level).rgb, environment_layer(uv, 0),
                    perceptual_roughness / LAYER_ROUGHNESS_MIN);
     }
-    // A lobe narrower than a texel shows the lamp as the map has it.
-    float by_formula = clamp((alpha - ALPHA_MIN) / (0.25 * texel_rad), 0.0, 1.0);
+    // A lobe narrower than a texel shows the lamp as the map has it, unless the pixel itself sees more than a texel.
+    float by_formula = clamp(max((alpha - ALPHA_MIN) / (0.25 * texel_rad), spread_rad / texel_rad - 1.0), 0.0, 1.0);
     vec3 lamps = vec3(0.0);
     if (by_formula < 1.0) {
         lamps = textureLod(u_environment, uv, level).rgb - textureLod(u_environment_rest, uv, level).rgb;

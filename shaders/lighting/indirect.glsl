@@ -18,11 +18,19 @@
 #include "lighting/sheen.glsl"
 #endif
 
+#ifdef HAS_IMAGE_LIGHT
+// Side of the square over which directions spread as over the pixel's parallelogram: the root of the mean square.
+float spread_in_pixel(vec3 direction) {
+    vec3 across = dFdx(direction), down = dFdy(direction);
+    return sqrt(0.5 * (dot(across, across) + dot(down, down)));
+}
+#endif
+
 ImageLight image_light(Surface s, View w) {
     ImageLight image = no_image_light();
 #ifdef HAS_IMAGE_LIGHT
     vec3 mirrored = reflect(-w.v, w.n);
-    float spread_rad = max(length(dFdx(mirrored)), length(dFdy(mirrored)));
+    float spread_rad = spread_in_pixel(mirrored);
 #ifdef HAS_ANISOTROPY
     image.radiance = anisotropic_radiance(s, w, mirrored, spread_rad) * s.occlusion;
 #else
@@ -34,9 +42,8 @@ ImageLight image_light(Surface s, View w) {
 #endif
 #ifdef HAS_CLEARCOAT
     vec3 coat_mirrored = reflect(-w.v, w.coat_n);
-    float coat_spread_rad = max(length(dFdx(coat_mirrored)), length(dFdy(coat_mirrored)));
     image.clearcoat_radiance =
-        environment_radiance(coat_mirrored, s.clearcoat_roughness, coat_spread_rad) * s.occlusion;
+        environment_radiance(coat_mirrored, s.clearcoat_roughness, spread_in_pixel(coat_mirrored)) * s.occlusion;
 #endif
 #endif
 #if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)

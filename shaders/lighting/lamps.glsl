@@ -25,6 +25,13 @@ float disc_lobe(vec3 normal, vec3 disc, float size_squared, float alpha) {
     return d_ggx(0.25 * apart_squared, widened) * max(1.0 - 0.5 * apart_squared, 0.0) / lobe_norm(widened);
 }
 
+// The mean over a pixel whose directions lie within a mean squared angle: von Mises and Fisher's distribution, which
+// has no tail, and is 1 over the whole sphere also where it is wide.
+float disc_in_pixel(vec3 direction, vec3 disc, float size_squared) {
+    vec3 apart = direction - disc;
+    return exp(-dot(apart, apart) / size_squared) / (PI * size_squared * (1.0 - exp(-4.0 / size_squared)));
+}
+
 // What prefiltering would give for the lamps alone.
 vec3 lamp_radiance(vec3 direction, float alpha, float spread_rad) {
     vec3 sum = vec3(0.0);
@@ -45,6 +52,10 @@ vec3 lamp_radiance(vec3 direction, float alpha, float spread_rad) {
                 lobe += disc_lobe(direction, normalize(place.xyz + off), size_squared / 7.0, alpha);
             }
             lobe /= 7.0;
+            // The tail belongs to the lobe's share of the width alone: the pixel's own share has none.
+            if (alpha < 0.2 * spread_rad) {
+                lobe = mix(disc_in_pixel(direction, place.xyz, size_squared), lobe, alpha / (0.2 * spread_rad));
+            }
         }
         sum += lobe * texelFetch(u_environment_lamps, ivec2(i, 1), 0).rgb;
     }
