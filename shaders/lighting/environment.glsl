@@ -23,33 +23,51 @@ vec3 environment_layer(vec2 uv, int layer) {
     return sample_stack(u_environment_layers, LAYERS_PER_LEVEL, layer - level * LAYERS_PER_LEVEL, level, uv).rgb;
 }
 
-// Radiance from `direction` as a lobe of the given roughness sees it. `spread_rad`: angle between the directions of
-// neighbouring pixels: the sharp map and its lamps are averaged over as much. Layers are not: their lobes have tails,
-// and a wider one would carry bright light to where no direction in the pixel meets it.
+// Level of the sharp map: filtering reads two texels across, so that each is half of what a pixel spans.
+float sharp_level(float spread_rad, float texel_rad) { return log2(max(0.5 * spread_rad / texel_rad, 1.0)); }
+
+float sharp_texel_rad() { return PI / float(textureSize(u_environment, 0).y); }
+
+vec3 rest_radiance(vec2 uv, float perceptual_roughness, float spread_rad) {
+    float layer = 2.0 * log2(max(perceptual_roughness / LAYER_ROUGHNESS_MIN, 1.0));
+    if (perceptual_roughness >= LAYER_ROUGHNESS_MIN) {
+        return mix(environment_layer(uv, int(layer)), environment_layer(uv, int(ceil(layer))), fract(layer));
+    }
+    float level = sharp_level(spread_rad, sharp_texel_rad());
+    return mix(textureLod(u_environment_rest, uv, level).rgb, environment_layer(uv, 0),
+               perceptual_roughness / LAYER_ROUGHNESS_MIN);
+}
+
+// A lobe narrower than a texel shows lamps as the map has them, unless the pixel itself sees more than a texel.
+vec3 lamp_radiance(vec2 uv, LampLobe lobe) {
+    float texel_rad = sharp_texel_rad();
+    float by_formula =
+        clamp(max((lobe.alpha - ALPHA_MIN) / (0.25 * texel_rad), lobe.spread_rad / texel_rad - 1.0), 0.0, 1.0);
+    vec3 lamps = vec3(0.0);
+    if (by_formula < 1.0) {
+        float level = sharp_level(lobe.spread_rad, texel_rad);
+        lamps = textureLod(u_environment, uv, level).rgb - textureLod(u_environment_rest, uv, level).rgb;
+    }
+    return by_formula > 0.0 ? mix(lamps, lamp_lobe_radiance(lobe), by_formula) : lamps;
+}
+
+// Radiance from `direction` as a round lobe of the given roughness sees it. `spread_rad`: angle between the directions
+// of neighbouring pixels: the sharp map and its lamps are averaged over as much. Layers are not: their lobes have
+// tails, and a wider one would carry bright light to where no direction in the pixel meets it.
 vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spread_rad) {
     vec2 uv = equirect_from_direction(direction);
     float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
-    float texel_rad = PI / float(textureSize(u_environment, 0).y);
-    float level = log2(max(spread_rad / texel_rad, 1.0));
+    return rest_radiance(uv, perceptual_roughness, spread_rad) +
+           lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, vec3(0.0), vec3(0.0), 0.0));
+}
 
-    vec3 rest;
-    float layer = 2.0 * log2(max(perceptual_roughness / LAYER_ROUGHNESS_MIN, 1.0));
-    if (perceptual_roughness >= LAYER_ROUGHNESS_MIN) {
-        rest = mix(environment_layer(uv, int(layer)), environment_layer(uv, int(ceil(layer))), fract(layer));
-    } else {
-        rest = mix(textureLod(u_environment_rest, uv, level).rgb, environment_layer(uv, 0),
-                   perceptual_roughness / LAYER_ROUGHNESS_MIN);
-    }
-    // A lobe narrower than a texel shows the lamp as the map has it, unless the pixel itself sees more than a texel.
-    float by_formula = clamp(max((alpha - ALPHA_MIN) / (0.25 * texel_rad), spread_rad / texel_rad - 1.0), 0.0, 1.0);
-    vec3 lamps = vec3(0.0);
-    if (by_formula < 1.0) {
-        lamps = textureLod(u_environment, uv, level).rgb - textureLod(u_environment_rest, uv, level).rgb;
-    }
-    if (by_formula > 0.0) {
-        lamps = mix(lamps, lamp_radiance(direction, alpha, spread_rad), by_formula);
-    }
-    return rest + lamps;
+// The same for a surface whose facets mirror `direction` to the viewer: lamps through the facets themselves, divided by
+// `albedo`, all that they send of a white sky, which the split sum multiplies by.
+vec3 mirrored_radiance(vec3 direction, vec3 n, vec3 v, float perceptual_roughness, float albedo, float spread_rad) {
+    vec2 uv = equirect_from_direction(direction);
+    float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
+    return rest_radiance(uv, perceptual_roughness, spread_rad) +
+           lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, n, v, albedo));
 }
 
 // E/π: a white environment gives 1.

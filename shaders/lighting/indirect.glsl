@@ -28,13 +28,25 @@ float spread_in_pixel(vec3 direction) {
 
 ImageLight image_light(Surface s, View w) {
     ImageLight image = no_image_light();
+#if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)
+#ifdef HAS_ANISOTROPY
+    image.dfg = anisotropic_dfg_terms(s, w);
+#else
+    image.dfg = dfg_terms(u_dfg, w.n_dot_v, s.perceptual_roughness);
+#endif
+#endif
+#ifdef HAS_CLEARCOAT
+    image.clearcoat_dfg = dfg_terms(u_dfg, w.coat_n_dot_v, s.clearcoat_roughness);
+#endif
 #ifdef HAS_IMAGE_LIGHT
     vec3 mirrored = reflect(-w.v, w.n);
     float spread_rad = spread_in_pixel(mirrored);
 #ifdef HAS_ANISOTROPY
     image.radiance = anisotropic_radiance(s, w, mirrored, spread_rad) * s.occlusion;
 #else
-    image.radiance = environment_radiance(mirrored, s.perceptual_roughness, spread_rad) * s.occlusion;
+    image.radiance = mirrored_radiance(mirrored, w.n, w.v, s.perceptual_roughness, image.dfg.x + image.dfg.y,
+                                       spread_rad) *
+                     s.occlusion;
 #endif
     image.irradiance = environment_irradiance(w.n) * s.occlusion;
 #ifdef HAS_SHEEN
@@ -43,14 +55,9 @@ ImageLight image_light(Surface s, View w) {
 #ifdef HAS_CLEARCOAT
     vec3 coat_mirrored = reflect(-w.v, w.coat_n);
     image.clearcoat_radiance =
-        environment_radiance(coat_mirrored, s.clearcoat_roughness, spread_in_pixel(coat_mirrored)) * s.occlusion;
-#endif
-#endif
-#if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)
-#ifdef HAS_ANISOTROPY
-    image.dfg = anisotropic_dfg_terms(s, w);
-#else
-    image.dfg = dfg_terms(u_dfg, w.n_dot_v, s.perceptual_roughness);
+        mirrored_radiance(coat_mirrored, w.coat_n, w.v, s.clearcoat_roughness,
+                          image.clearcoat_dfg.x + image.clearcoat_dfg.y, spread_in_pixel(coat_mirrored)) *
+        s.occlusion;
 #endif
 #endif
 #ifdef HAS_TRANSMISSION
@@ -58,9 +65,6 @@ ImageLight image_light(Surface s, View w) {
 #endif
 #ifdef HAS_SHEEN
     image.sheen_albedo = sheen_albedo(u_sheen_albedo, w.n_dot_v, s.sheen_roughness);
-#endif
-#ifdef HAS_CLEARCOAT
-    image.clearcoat_dfg = dfg_terms(u_dfg, w.coat_n_dot_v, s.clearcoat_roughness);
 #endif
     return image;
 }

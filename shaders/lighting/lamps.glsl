@@ -1,5 +1,6 @@
 // Small, bright lights of the environment, each lit by formula. Made by gltf_iri/rendering/environment_lamps.py.
 
+#include "generated/constants.glsl"
 #include "optics/microfacet.glsl"
 
 // A column a lamp: (direction, mean squared radius in rad²), (radiance · steradians).
@@ -15,13 +16,35 @@ float lobe_norm(float alpha) {
     return 4.0 / b * (1.0 - log(1.0 + x) / x);
 }
 
-// D (N·L) / ∫ D (N·L) dω, N = V, of a small disc of light with the mean squared radius `size_squared`.
-float disc_lobe(vec3 normal, vec3 disc, float size_squared, float alpha) {
-    // With N = V, H is halfway to L: |N×H|² = (1 − N·L) / 2 = |N − L|² / 4, which does not cancel.
-    vec3 apart = normal - disc;
-    float apart_squared = dot(apart, apart);
+// How a lamp is looked at: about `direction`, or through the facets of a surface where `albedo` is above 0.
+struct LampLobe {
+    vec3 direction;
+    float alpha;
+    float spread_rad;  // between the directions of neighbouring pixels
+    vec3 n;
+    vec3 v;
+    float albedo;      // A + B: ∫ D V (N·L) dω
+};
+
+// The share of a small disc of light with the mean squared radius `size_squared`, per steradian: D V (N·L) / (A + B),
+// or D (N·L) / ∫ D (N·L) dω for N = V = `direction`.
+float disc_lobe(LampLobe lobe, vec3 disc, float size_squared) {
     // About as wide as the convolution of disc and lobe: 0.5 is right at its centre, less further out.
-    float widened = min(sqrt(sq(alpha) + 0.45 * size_squared), LAMP_ALPHA_MAX);
+    float widened = min(sqrt(sq(lobe.alpha) + 0.45 * size_squared), LAMP_ALPHA_MAX);
+    if (lobe.albedo > 0.0) {
+        float n_dot_l = dot(lobe.n, disc);
+        vec3 halfway = lobe.v + disc;
+        if (n_dot_l <= 0.0 || dot(halfway, halfway) == 0.0) {
+            return 0.0;
+        }
+        vec3 n_cross_h = cross(lobe.n, normalize(halfway));
+        float n_dot_v = clamp(dot(lobe.n, lobe.v), N_DOT_V_MIN, 1.0);
+        return d_ggx(dot(n_cross_h, n_cross_h), widened) *
+               v_smith_ggx_correlated(n_dot_l, n_dot_v, lobe.alpha) * n_dot_l / lobe.albedo;
+    }
+    // With N = V, H is halfway to L: |N×H|² = (1 − N·L) / 2 = |N − L|² / 4, which does not cancel.
+    vec3 apart = lobe.direction - disc;
+    float apart_squared = dot(apart, apart);
     return d_ggx(0.25 * apart_squared, widened) * max(1.0 - 0.5 * apart_squared, 0.0) / lobe_norm(widened);
 }
 
@@ -32,32 +55,33 @@ float disc_in_pixel(vec3 direction, vec3 disc, float size_squared) {
     return exp(-dot(apart, apart) / size_squared) / (PI * size_squared * (1.0 - exp(-4.0 / size_squared)));
 }
 
-// What prefiltering would give for the lamps alone.
-vec3 lamp_radiance(vec3 direction, float alpha, float spread_rad) {
+// What all lamps send into the lobe.
+vec3 lamp_lobe_radiance(LampLobe lobe) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < textureSize(u_environment_lamps, 0).x; ++i) {
         vec4 place = texelFetch(u_environment_lamps, ivec2(i, 0), 0);
-        float size_squared = place.w + sq(spread_rad) / 6.0;
-        float lobe;
-        if (sq(alpha) > 4.0 * size_squared) {
-            lobe = disc_lobe(direction, place.xyz, size_squared, alpha);
+        float size_squared = place.w + sq(lobe.spread_rad) / 6.0;
+        float share;
+        if (sq(lobe.alpha) > 4.0 * size_squared) {
+            share = disc_lobe(lobe, place.xyz, size_squared);
         } else {
             // A lobe narrower than the lamp: seven discs, one in the middle and six around it.
-            lobe = disc_lobe(direction, place.xyz, size_squared / 7.0, alpha);
+            share = disc_lobe(lobe, place.xyz, size_squared / 7.0);
             vec3 across = normalize(cross(place.xyz, abs(place.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
             vec3 along = cross(place.xyz, across);
             for (int j = 0; j < 6; ++j) {
                 float turn = float(j) * PI / 3.0;
                 vec3 off = sqrt(size_squared) * (cos(turn) * across + sin(turn) * along);
-                lobe += disc_lobe(direction, normalize(place.xyz + off), size_squared / 7.0, alpha);
+                share += disc_lobe(lobe, normalize(place.xyz + off), size_squared / 7.0);
             }
-            lobe /= 7.0;
+            share /= 7.0;
             // The tail belongs to the lobe's share of the width alone: the pixel's own share has none.
-            if (alpha < 0.2 * spread_rad) {
-                lobe = mix(disc_in_pixel(direction, place.xyz, size_squared), lobe, alpha / (0.2 * spread_rad));
+            float narrow = 0.2 * lobe.spread_rad;
+            if (lobe.alpha < narrow) {
+                share = mix(disc_in_pixel(lobe.direction, place.xyz, size_squared), share, lobe.alpha / narrow);
             }
         }
-        sum += lobe * texelFetch(u_environment_lamps, ivec2(i, 1), 0).rgb;
+        sum += share * texelFetch(u_environment_lamps, ivec2(i, 1), 0).rgb;
     }
     return sum;
 }

@@ -30,15 +30,16 @@ def slanted_sky():
     return Environment("slanted", np.repeat(radiance[..., None], 3, axis=-1).astype(np.float32))
 
 
-@pytest.fixture
-def prepared(gl_context):
-    light = prepare_environment(gl_context, slanted_sky())
-    yield light
-    light.release()
+@pytest.fixture(scope="module")
+def slanted():
+    """One object for all tests that draw under it: it is prefiltered once."""
+    return slanted_sky()
 
 
-def layers(prepared):
+@pytest.fixture(scope="module")
+def layers(_session_context, slanted):
     """Every layer of roughness from the smoothest on, and last irradiance; red alone."""
+    prepared = prepare_environment(_session_context, slanted)
     width, height = prepared.layers.size
     found = []
     for number in range(ROUGHNESS_LAYERS + 1):
@@ -46,35 +47,37 @@ def layers(prepared):
         stack = np.frombuffer(prepared.layers.read(level=level), np.float32)
         stack = stack.reshape(LAYERS_PER_LEVEL, (height >> level) // LAYERS_PER_LEVEL, width >> level, 4)
         found.append(stack[index, ..., 0].astype(np.float64))
+    prepared.release()
     return found
 
 
-def test_irradiance_of_a_slanted_sky_is_its_cosine_integral(prepared):
-    irradiance = layers(prepared)[-1]
+@pytest.mark.usefixtures("gl_context")
+def test_irradiance_of_a_slanted_sky_is_its_cosine_integral(layers):
+    irradiance = layers[-1]
     expected = 1.0 + 2.0 / 3.0 * (directions(*irradiance.shape, pole_to_pole=True) @ AXIS)
     assert np.abs(irradiance - expected).max() <= 2e-3
 
 
-def test_every_layer_blurs_alike_in_all_directions_seam_and_poles_included(prepared):
-    for layer in layers(prepared):
+@pytest.mark.usefixtures("gl_context")
+def test_every_layer_blurs_alike_in_all_directions_seam_and_poles_included(layers):
+    for layer in layers:
         slant = directions(*layer.shape, pole_to_pole=True) @ AXIS
         shrink = np.sum((layer - 1.0) * slant) / np.sum(slant * slant)
         assert np.abs(layer - 1.0 - shrink * slant).max() <= 0.01
 
 
-def test_rougher_layers_blur_more(prepared):
-    assert np.all(np.diff([np.ptp(layer) for layer in layers(prepared)[:-1]]) < 0.0)
+@pytest.mark.usefixtures("gl_context")
+def test_rougher_layers_blur_more(layers):
+    assert np.all(np.diff([np.ptp(layer) for layer in layers[:-1]]) < 0.0)
 
 
 @pytest.mark.parametrize("up", [1.0, -1.0])
-def test_a_surface_that_faces_a_pole_reads_its_own_layer_alone(stage, props, up):
+def test_a_surface_that_faces_a_pole_reads_its_own_layer_alone(stage, props, slanted, up):
     """Layers lie one below the other in one texture: the last row of one beside the first of the next."""
     view = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, -up, 0.0], [0.0, up, 0.0, -4.0], [0.0, 0.0, 0.0, 1.0]])
     ball = Material(pbr=MetallicRoughness(metallic_factor=0.0))
     camera = replace(props.camera(half_height=1.0), view=view)
-    inputs = stage.draw(
-        props.sphere(), ball, environment=slanted_sky(), seen_from=camera, with_inputs=True
-    ).inputs
+    inputs = stage.draw(props.sphere(), ball, environment=slanted, seen_from=camera, with_inputs=True).inputs
     assert np.abs(inputs.normal[32, 32] - [0.0, up, 0.0]).max() <= 0.04
     expected = 1.0 + 2.0 / 3.0 * (inputs.normal[32, 32] @ AXIS)
     assert np.abs(inputs.irradiance[32, 32] - expected).max() <= 5e-3
@@ -97,7 +100,7 @@ def test_halving_weighs_texels_by_solid_angle():
     assert environment_levels(sky)[1][0, 0, 0] == pytest.approx(polar_cap / (polar_cap + band), rel=1e-6)
 
 
-@pytest.mark.parametrize("column", [0, 40, 90, 127, 200, 255])
+@pytest.mark.parametrize("column", [0, 90, 200])
 def test_a_mirror_shows_a_lamp_where_the_mirror_law_puts_it(stage, props, column):
     sky = np.zeros((128, 256, 3), np.float32)
     sky[44:48, [(column - 1) % 256, column, (column + 1) % 256]] = 1000.0
