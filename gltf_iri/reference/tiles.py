@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from multiprocessing.context import SpawnContext
 from typing import Final
 
 from gltf_iri.errors import MissingCapabilityError, UsageError
@@ -53,6 +54,7 @@ def paint_tiles(job: Job, processes: int | None) -> Iterator[tuple[int, Tile]]:
         return
     # A fresh interpreter each: a fork would copy OpenGL's threads and locks in whatever state they are.
     context = multiprocessing.get_context("spawn")
+    _check_that_processes_start(context)
     with ProcessPoolExecutor(workers, context, initializer=_receive, initargs=(job,)) as pool:
         pending = {pool.submit(_paint, index, rows): index for index, rows in tiles}
         try:
@@ -64,6 +66,22 @@ def paint_tiles(job: Job, processes: int | None) -> Iterator[tuple[int, Tile]]:
             ) from error
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
+
+
+def _check_that_processes_start(context: SpawnContext) -> None:
+    """Start one without a job: handing a large one to a process that ends early would block for ever."""
+    try:
+        with ProcessPoolExecutor(1, context) as pool:
+            pool.submit(os.getpid).result()
+    except OSError as error:
+        raise MissingCapabilityError(
+            f"This machine starts no processes that share memory ({error.strerror}); ask for one process."
+        ) from error
+    except BrokenProcessPool as error:
+        raise UsageError(
+            'A script that paints with several processes calls this under `if __name__ == "__main__":`, for '
+            "each of them reads it again; or ask for one process."
+        ) from error
 
 
 def _receive(job: Job) -> None:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import os
+import pickle
+import subprocess
+import sys
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -74,6 +78,29 @@ def test_a_process_that_dies_is_told(props):
     job = Job(stage, props.camera(), None, (80, 120), None, "D65", "all", True, 16, 8, 8, 0)
     with pytest.raises(MissingCapabilityError, match="One of 2 processes died"):
         list(paint_tiles(replace(job, stage=EndsTheProcess()), 2))
+
+
+UNGUARDED = """
+import pickle, sys
+from gltf_iri.reference.tiles import paint_tiles
+list(paint_tiles(pickle.load(open(sys.argv[1], "rb")), 2))
+"""
+
+
+def test_a_script_that_workers_would_run_again_is_told_so(props, tmp_path):
+    stage = build_stage(*props.scene_of(props.quad()))
+    job = Job(stage, props.camera(), None, (80, 120), None, "D65", "all", True, 16, 8, 8, 0)
+    (tmp_path / "job").write_bytes(pickle.dumps(job))
+    (tmp_path / "script.py").write_text(UNGUARDED, encoding="utf-8")
+    done = subprocess.run(
+        [sys.executable, tmp_path / "script.py", tmp_path / "job"],
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert done.returncode == 1
+    assert done.stderr.splitlines()[-1].startswith("gltf_iri.errors.UsageError: A script that paints with")
 
 
 @pytest.mark.parametrize("size", [(1, 1), (7, 3000), (5000, 2), (640, 480)])
