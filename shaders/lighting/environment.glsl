@@ -62,11 +62,13 @@ vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spre
 }
 
 // The same for a surface whose facets mirror `direction` to the viewer: lamps through the facets themselves, divided by
-// `albedo`, all that they send of a white sky, which the split sum multiplies by.
+// `albedo`, all that they send of a white sky, which the split sum multiplies by. Layers are read nearer the normal the
+// rougher it is: the far side of the lobe is masked or below the horizon. The cube fits the converged integral on balls.
 vec3 mirrored_radiance(vec3 direction, vec3 n, vec3 v, float perceptual_roughness, float albedo, float spread_rad) {
     vec2 uv = equirect_from_direction(direction);
     float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
-    return rest_radiance(uv, perceptual_roughness, spread_rad) +
+    vec3 middle = normalize(mix(direction, n, sq(perceptual_roughness) * perceptual_roughness));
+    return rest_radiance(equirect_from_direction(middle), perceptual_roughness, spread_rad) +
            lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, n, v, albedo));
 }
 
