@@ -82,7 +82,8 @@ class Renderer:
         size : width and height in pixels.
         samples : samples a pixel; 0 or 1 for its centre alone.
         float_textures : textures as linear float32 (see `TextureStore`).
-        sharp_textures : textures without minification, as the CPU reference samples them.
+        sharp_textures : as the CPU reference samples: textures without minification, and the environment and
+            what is seen through glass in the direction of the pixel's centre, not over all that it spans.
         with_inputs : also return what each pixel's centre was shaded with; the picture then has one sample a
             pixel. In the inputs blended materials are as if opaque, and what light passes through is the
             surface in front: an input belongs to one surface.
@@ -123,6 +124,7 @@ class Renderer:
             light = light | {"u_lights": lights}
             shared = view_uniforms(camera, size) | _surrounding_uniforms(environment)
             shared["u_light_count"] = len(scene.lights)
+            shared["u_footprint"] = 0.0 if sharp_textures else 1.0
             with times.measure("uploads"):
                 draws = list(
                     prepare_draws(

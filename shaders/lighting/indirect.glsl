@@ -2,6 +2,7 @@
 // Karis 2013, "Real Shading in Unreal Engine 4".
 
 #include "lighting/dfg.glsl"
+#include "lighting/footprint.glsl"
 #include "lighting/lobes.glsl"
 #include "lighting/view.glsl"
 #include "pass/surface_outputs.glsl"
@@ -16,14 +17,6 @@
 #endif
 #ifdef HAS_SHEEN
 #include "lighting/sheen.glsl"
-#endif
-
-#ifdef HAS_IMAGE_LIGHT
-// Side of the square over which directions spread as over the pixel's parallelogram: the root of the mean square.
-float spread_in_pixel(vec3 direction) {
-    vec3 across = dFdx(direction), down = dFdy(direction);
-    return sqrt(0.5 * (dot(across, across) + dot(down, down)));
-}
 #endif
 
 ImageLight image_light(Surface s, View w) {

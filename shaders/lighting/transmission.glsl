@@ -4,6 +4,7 @@
 
 #include "common/math.glsl"
 #include "generated/constants.glsl"
+#include "lighting/footprint.glsl"
 #include "material/surface.glsl"
 #include "optics/transmission.glsl"
 #ifdef HAS_IMAGE_LIGHT
@@ -142,8 +143,7 @@ vec3 behind_scene(Passage passage, bool is_bent) {
 }
 
 vec3 arriving_radiance(vec3 from, vec3 direction, float roughness, bool is_bent) {
-    float spread_rad = max(length(dFdx(direction)), length(dFdy(direction)));
-    Passage passage = Passage(from, direction, roughness, spread_rad);
+    Passage passage = Passage(from, direction, roughness, spread_in_pixel(direction));
     vec4 drawn;
     if (!is_bent && roughness == 0.0) {
         drawn = texelFetch(u_captured, ivec2(gl_FragCoord.xy), 0);

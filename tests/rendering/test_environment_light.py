@@ -7,7 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from gltf_iri.material.clearcoat import Clearcoat
 from gltf_iri.material.material import Material, MetallicRoughness
+from gltf_iri.material.transmission import Transmission
+from gltf_iri.material.volume import Volume
 from gltf_iri.rendering.environment_levels import environment_levels
 from gltf_iri.rendering.environment_light import LAYERS_PER_LEVEL, ROUGHNESS_LAYERS, prepare_environment
 from gltf_iri.scene.model import Environment
@@ -122,14 +125,18 @@ def test_a_mirror_shows_a_lamp_where_the_mirror_law_puts_it(stage, props, column
     assert np.degrees(np.arccos(mirrored @ lamp)) <= 3.0
 
 
-def test_a_mirror_does_not_sparkle_where_a_pixel_sees_many_texels(stage, props):
+def striped_sky():
     stripes = np.zeros((256, 512, 3), np.float32)
     stripes[:, ::2] = 2.0
+    return Environment("stripes", stripes)
+
+
+def test_a_mirror_does_not_sparkle_where_a_pixel_sees_many_texels(stage, props):
     mirror = Material(pbr=MetallicRoughness(metallic_factor=1.0, roughness_factor=0.0))
     inputs = stage.draw(
         props.sphere(),
         mirror,
-        environment=Environment("stripes", stripes),
+        environment=striped_sky(),
         seen_from=props.camera(half_height=1.0),
         size=(24, 24),
         with_inputs=True,
@@ -137,3 +144,37 @@ def test_a_mirror_does_not_sparkle_where_a_pixel_sees_many_texels(stage, props):
     seen = inputs.reflected_radiance[inputs.material == 0][:, 0]
     assert np.mean(seen) == pytest.approx(1.0, abs=0.05)
     assert np.abs(seen - 1.0).max() <= 0.2
+
+
+@pytest.mark.parametrize("seen", ["mirrored", "by the coat", "through a ball"])
+def test_light_through_pixel_centres_is_averaged_over_nothing(stage, props, seen):
+    """Stripes of 0 and 2: pixels that span many of them see about 1, centres alone see one stripe or two."""
+    black = MetallicRoughness(base_color_factor=(0.0, 0.0, 0.0, 1.0), roughness_factor=0.0)
+    glass = MetallicRoughness(metallic_factor=0.0, roughness_factor=0.0)
+    ball = {
+        "mirrored": Material(pbr=MetallicRoughness(metallic_factor=1.0, roughness_factor=0.0)),
+        "by the coat": Material(pbr=black, clearcoat=Clearcoat(factor=1.0)),
+        "through a ball": Material(
+            pbr=glass, transmission=Transmission(factor=1.0), volume=Volume(thickness_factor_m=2.0)
+        ),
+    }[seen]
+    sky = striped_sky()
+
+    def contrast(*, is_sharp):
+        frame = stage.draw(
+            props.sphere(),
+            ball,
+            environment=sky,
+            seen_from=props.camera(half_height=1.0),
+            size=(24, 24),
+            samples=0,
+            sharp_textures=is_sharp,
+        )
+        middle = frame.rgba[8:16, 8:16, 0]
+        return middle.std() / middle.mean(), frame.rgba
+
+    ordinary, before = contrast(is_sharp=False)
+    sharp, _ = contrast(is_sharp=True)
+    assert ordinary <= 0.15
+    assert sharp >= 3.0 * ordinary
+    assert np.array_equal(contrast(is_sharp=False)[1], before)
