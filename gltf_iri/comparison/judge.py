@@ -23,7 +23,7 @@ from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.film import FilmMethod
+from gltf_iri.reference.film_on import FilmMethod
 from gltf_iri.rendering.frame import Frame, ShadingInputs
 from gltf_iri.scene.model import Camera, Light
 

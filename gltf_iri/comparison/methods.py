@@ -10,7 +10,7 @@ from gltf_iri.colour.sensitivity import SENSITIVITY_WHITE
 from gltf_iri.evaluation.film import Evaluation, Film
 from gltf_iri.evaluation.khr import khr_branch_distance_ulp
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.reference.film import FilmMethod
+from gltf_iri.reference.film_on import FilmMethod
 from gltf_iri.tolerances import GLSL_BRANCH_ULP
 
 __all__ = ["BRANCH", "TRUTH", "film_method", "white_of"]

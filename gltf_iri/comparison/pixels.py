@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN
+from gltf_iri.optics.microfacet import N_DOT_V_MIN, alpha_ggx
 from gltf_iri.reference.surface import Surface
 from gltf_iri.rendering.frame import ShadingInputs
 from gltf_iri.scene.model import Camera
@@ -53,8 +53,8 @@ def surface_of_pixels(inputs: ShadingInputs, mask: Mask, camera: Camera) -> Surf
         # Interpolated vertex colours may overshoot by a float32 rounding; no reflectance exceeds 1.
         base_color=np.clip(take("base_color"), 0.0, 1.0),
         metallic=take("metallic"),
-        roughness=roughness,
-        alpha=np.maximum(roughness**2, ALPHA_MIN),
+        perceptual_roughness=roughness,
+        alpha_roughness=alpha_ggx(roughness),
         emission=take("emission"),
         occlusion=np.ones_like(roughness),
         dielectric_f0=np.clip(take("dielectric_f0"), 0.0, 1.0),

@@ -2,7 +2,7 @@
 
 The equations are the renderer's; the code is not: it starts from each pixel's inputs and evaluates the film
 with any method, the truth included. Punctual light takes the road of the CPU reference
-(gltf_iri/reference/lobes.py); image light, which the renderer approximates, is put together here.
+(gltf_iri/reference/direct.py); image light, which the renderer approximates, is put together here.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from gltf_iri.comparison.image_light import image_light, under_clearcoat
 from gltf_iri.comparison.pixels import ImageLight
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.film import FilmMethod, FilmOn
-from gltf_iri.reference.lobes import evaluate_lobes, film_reflectances
+from gltf_iri.reference.direct import punctual_lighting
+from gltf_iri.reference.film_on import FilmMethod, FilmOn
+from gltf_iri.reference.lobes import film_reflectances
 from gltf_iri.reference.surface import Surface
-from gltf_iri.scene.illuminance import arriving
 from gltf_iri.scene.model import Light
 
 __all__ = ["Shading", "shade"]
@@ -67,12 +67,10 @@ def shade(
     film = FilmOn(surface, film_ior, method)
     if plan.calls_for(Effect.UNLIT):
         return Shading(surface.base_color, np.zeros_like(surface.base_color), film.has_film, "", {})
-    everywhere = np.ones(len(surface.alpha), dtype=np.bool_)
+    everywhere = np.ones(len(surface.alpha_roughness), dtype=np.bool_)
     filmed = film_reflectances(surface, plan, film, surface.n_dot_v, everywhere)
     rgb = under_clearcoat(surface, image, surface.emission + image_light(surface, image, plan, filmed))
-    for light in lights:
-        towards_light, illuminance = arriving(light, surface.position)
-        rgb = rgb + illuminance * evaluate_lobes(surface, towards_light, film, plan)
+    rgb += punctual_lighting(surface, lights, film, plan)
     share = surface.metallic[:, None]
     own = (1.0 - share) * filmed[0] + share * filmed[1]
     return Shading(rgb, own, film.has_film, film.white, film.undefined)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
@@ -19,7 +20,7 @@ __all__ = ["LogSeries"]
 Float64 = NDArray[np.float64]
 
 # Points at a time: what lies between the matrix products stays within a processor's cache.
-_CHUNK = 4096
+_CHUNK: Final = 4096
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.optics.chebyshev import LogSeries
-from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN, v_smith_ggx_correlated
+from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN, alpha_ggx, v_smith_ggx_correlated
 
 __all__ = ["dfg_terms", "integrate_dfg"]
 
@@ -39,10 +39,7 @@ def dfg_terms(n_dot_v: ArrayLike, perceptual_roughness: ArrayLike) -> tuple[Floa
     n_dot_v : cosine of the viewer's angle, in [0, 1]; below N_DOT_V_MIN as at N_DOT_V_MIN.
     perceptual_roughness : in [0, 1]; α = max(perceptual_roughness², ALPHA_MIN).
     """
-    cosine, roughness = np.broadcast_arrays(
-        np.asarray(n_dot_v, np.float64), np.asarray(perceptual_roughness, np.float64)
-    )
-    alpha = np.maximum(roughness * roughness, ALPHA_MIN)
+    cosine, alpha = np.broadcast_arrays(np.asarray(n_dot_v, np.float64), alpha_ggx(perceptual_roughness))
     a, b = _series()(np.maximum(cosine, N_DOT_V_MIN).ravel(), alpha.ravel())
     return a.reshape(cosine.shape), b.reshape(cosine.shape)
 

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 __all__ = [
     "ALPHA_MIN",
     "N_DOT_V_MIN",
+    "alpha_ggx",
     "anisotropic_alphas",
     "d_ggx",
     "d_ggx_anisotropic",
@@ -29,6 +30,11 @@ ALPHA_MIN: Final = 1e-3
 
 # Keeps the masking finite where interpolated normals lean past the silhouette (N·V ≤ 0 with N·L = 0 is 0/0).
 N_DOT_V_MIN: Final = 1e-4
+
+
+def alpha_ggx(perceptual_roughness: ArrayLike) -> Float64:
+    """α = max(perceptual_roughness², ALPHA_MIN), glTF 2.0 Appendix B.3."""
+    return np.asarray(np.maximum(np.asarray(perceptual_roughness, np.float64) ** 2, ALPHA_MIN))
 
 
 def d_ggx(n_cross_h_squared: ArrayLike, alpha: ArrayLike) -> Float64:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.reference.environment import EnvironmentMap
+from gltf_iri.reference.environment_map import EnvironmentMap
 from gltf_iri.reference.rays import camera_rays
 from gltf_iri.scene.model import Camera, Environment
 

@@ -19,9 +19,9 @@ from gltf_iri.material.specular import Specular
 from gltf_iri.material.texture import TextureInfo
 from gltf_iri.material.transmission import Transmission
 from gltf_iri.material.volume import Volume
-from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN
+from gltf_iri.optics.microfacet import N_DOT_V_MIN, alpha_ggx
 from gltf_iri.planning.effects import Effect
-from gltf_iri.reference.frame import mapped_normal, tangent_frame
+from gltf_iri.reference.normal import mapped_normal, tangent_frame
 from gltf_iri.reference.points import Points, unit
 from gltf_iri.reference.slots import sample_slot, texture_of
 from gltf_iri.reference.stage import Stage
@@ -61,8 +61,8 @@ def gather_surface(stage: Stage, slot: int, points: Points, view: Float64) -> Su
         n_dot_v=np.clip(np.sum(normal * view, axis=1), N_DOT_V_MIN, 1.0),
         base_color=np.clip(base[:, :3], 0.0, 1.0),  # vertex colours above 1 would reflect more than arrives
         metallic=(m.pbr.metallic_factor if is_lit else 0.0) * roughness_metallic[:, 1],
-        roughness=roughness,
-        alpha=np.maximum(roughness**2, ALPHA_MIN),
+        perceptual_roughness=roughness,
+        alpha_roughness=alpha_ggx(roughness),
         emission=_emission(reader, m),
         occlusion=_occlusion(reader, m),
         dielectric_f0=dielectric_f0,

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.reference.glass_light import Scenery
-from gltf_iri.reference.glass_walk import Walk, take_hits
+from gltf_iri.reference.glass_walk import Walk
 from gltf_iri.reference.tracer import Hits
 
 __all__ = ["Scenery", "Traced", "trace_glass"]
@@ -66,7 +66,7 @@ def trace_glass(
         at_once = max(_CHUNK // len(here), 1)
         for done in range(0, paths, at_once):
             rows = np.tile(here, min(at_once, paths - done))
-            walk = Walk(scenery, directions[rows], take_hits(hits, rows), depth, rng)
+            walk = Walk(scenery, directions[rows], hits.take(rows), depth, rng)
             walk.run()
             brought = walk.colour.reshape(-1, len(here), 3)
             total[here] += brought.sum(axis=0)

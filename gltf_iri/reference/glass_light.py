@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.environment import EnvironmentMap
-from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.direct import emitted, punctual_lighting
+from gltf_iri.reference.environment_map import EnvironmentMap
+from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.image_light import Lobes, estimate
 from gltf_iri.reference.layers import clearcoat_reflectance, fibre_lobe
 from gltf_iri.reference.lobes import evaluate_lobes
-from gltf_iri.reference.shade import emitted, punctual_light
 from gltf_iri.reference.stage import Stage
 from gltf_iri.reference.surface import Surface
 from gltf_iri.reference.tracer import Tracer
@@ -53,7 +53,7 @@ def sent(
     scenery: Scenery, surface: Surface, plan: MaterialPlan, film: FilmOn, rng: np.random.Generator
 ) -> Float64:
     """Return emission, punctual and image light (n, 3) of a surface that nothing passes through."""
-    light = emitted(surface, plan) + punctual_light(surface, scenery.lights, film, plan)
+    light = emitted(surface, plan) + punctual_lighting(surface, scenery.lights, film, plan)
     return light + _image_light(scenery, surface, plan, film, rng, evaluate_lobes)
 
 
@@ -64,7 +64,7 @@ def unmirrored(
 
     The rest of the image light is what its facets mirror and let through.
     """
-    light = emitted(surface, plan) + punctual_light(surface, scenery.lights, film, plan)
+    light = emitted(surface, plan) + punctual_lighting(surface, scenery.lights, film, plan)
     has_diffuse = bool(np.any((surface.transmission < 1.0) & (surface.metallic < 1.0)))
     if has_diffuse or plan.calls_for(Effect.SHEEN):
         light = light + _image_light(scenery, surface, plan, film, rng, _wide_lobes)

@@ -23,12 +23,11 @@ from numpy.typing import NDArray
 
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.optics.layering import CLEARCOAT_F0, transmitted_share
-from gltf_iri.optics.microfacet import ALPHA_MIN, anisotropic_alphas
+from gltf_iri.optics.microfacet import alpha_ggx, anisotropic_alphas
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.facets import Axes, draw_facet, mirrored, refracted, shadowing_ratio
-from gltf_iri.reference.film import FilmOn
-from gltf_iri.reference.image_light import take_points
+from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.layers import clearcoat_reflectance, fibre_passage
 from gltf_iri.reference.lobes import film_reflectances, layered_reflectances
 from gltf_iri.reference.surface import Surface
@@ -78,7 +77,7 @@ def cross(
     rows = np.arange(count)
     for met in range(_FACETS):
         step = _meet_facet(
-            take_points(surface, rows), plan, film, ior[rows], leaves[rows] ^ passes[rows], back[rows], rng
+            surface.take(rows), plan, film, ior[rows], leaves[rows] ^ passes[rows], back[rows], rng
         )
         weight[rows] *= step.weight
         passes[rows] ^= step.passes
@@ -116,7 +115,7 @@ def _meet_facet(
     rng: np.random.Generator,
 ) -> _Step:
     count = len(ior)
-    widths = anisotropic_alphas(surface.alpha, surface.anisotropy_strength)
+    widths = anisotropic_alphas(surface.alpha_roughness, surface.anisotropy_strength)
     facet = draw_facet(back, *widths, rng.random((count, 2)))
     cosine = np.clip(np.sum(back * facet, axis=1), 0.0, 1.0)
     reflection = mirrored(back, facet)
@@ -174,7 +173,7 @@ def _under_coat(below: Crossing, surface: Surface, leaves: Mask, rng: np.random.
     count = len(leaves)
     axes = Axes.around(surface.clearcoat_normal)
     view = axes.to_viewer(surface.view)
-    alpha = np.maximum(surface.clearcoat_roughness**2, ALPHA_MIN)
+    alpha = alpha_ggx(surface.clearcoat_roughness)
     facet = draw_facet(view, alpha, alpha, rng.random((count, 2)))
     reflection = mirrored(view, facet)
     share = np.where(leaves, 0.0, clearcoat_reflectance(surface))

@@ -15,7 +15,7 @@ from gltf_iri.optics.transmission import dispersed_iors
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.cutout import coverage
-from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.gather import gather_surface
 from gltf_iri.reference.glass_light import Scenery, sent, unmirrored
 from gltf_iri.reference.glass_surface import cross
@@ -23,7 +23,7 @@ from gltf_iri.reference.points import Points, gather_points
 from gltf_iri.reference.surface import Surface
 from gltf_iri.reference.tracer import Hits
 
-__all__ = ["Walk", "take_hits"]
+__all__ = ["Walk"]
 
 Float64 = NDArray[np.float64]
 Int64 = NDArray[np.int64]
@@ -52,9 +52,8 @@ class Walk:
         self._origin = np.zeros((count, 3))
         self._direction = directions.copy()
         self._throughput = np.ones((count, 3))
-        self._media = np.zeros(
-            (count, depth + 1), np.int64
-        )  # bodies that the path is in, the outermost first
+        # Bodies that the path is in, the outermost first.
+        self._media = np.zeros((count, depth + 1), np.int64)
         self._level = np.zeros(count, np.int64)  # how many of them
         self._is_straight = np.ones(count, np.bool_)
         self._channel = np.full(count, _ALL)
@@ -68,13 +67,13 @@ class Walk:
         for met in range(self._depth + 1):
             hits = self._cast(rows) if met else self._first
             self._escape(rows[~hits.valid])
-            rows, hits = rows[hits.valid], take_hits(hits, hits.valid)
+            rows, hits = rows[hits.valid], hits.take(hits.valid)
             if met:
                 self._absorb(rows, hits.distance)
             slots = self._slots[hits.primitive]
             for slot in np.unique(slots):
                 chosen = np.flatnonzero(slots == slot)
-                self._meet(int(slot), rows[chosen], take_hits(hits, chosen), met)
+                self._meet(int(slot), rows[chosen], hits.take(chosen), met)
             rows = rows[self._is_alive[rows]]
             faint = self._throughput[rows].max(axis=1, initial=0.0) < _NEGLIGIBLE
             self._give_up(rows[faint])
@@ -99,7 +98,7 @@ class Walk:
             for chosen, culled in ((outside, True), (inside, False))
         ]
         joined = Hits(**{f.name: np.concatenate([getattr(p, f.name) for p in parts]) for f in fields(Hits)})
-        return take_hits(joined, np.argsort(order))
+        return joined.take(np.argsort(order))
 
     def _escape(self, rows: Int64) -> None:
         s = self._scenery
@@ -133,7 +132,7 @@ class Walk:
             passed = self._is_passed(slot, plan, hits)
             going = self._direction[rows[passed]] * hits.distance[passed, None]
             self._origin[rows[passed]] += going
-            rows, hits = rows[~passed], take_hits(hits, ~passed)
+            rows, hits = rows[~passed], hits.take(~passed)
         if not len(rows):
             return
         points = gather_points(s.stage.scene, hits.primitive, hits.triangle, hits.barycentric, hits.is_front)
@@ -199,8 +198,3 @@ class Walk:
         self._throughput[white] *= 3.0 * np.eye(3)[self._channel[white]]
         dispersion = (material.dispersion or Dispersion()).dispersion
         return np.asarray(dispersed_iors(ior, dispersion)[self._channel[rows]])
-
-
-def take_hits(hits: Hits, rows: Mask | Int64) -> Hits:
-    """Return the hits of the rays `rows`, in that order."""
-    return Hits(**{f.name: getattr(hits, f.name)[rows] for f in fields(Hits)})

@@ -9,23 +9,22 @@ Combining Sampling Techniques for Monte Carlo Rendering", §3.3): L f |cos θ| /
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import fields
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.optics.microfacet import ALPHA_MIN, anisotropic_alphas
+from gltf_iri.optics.microfacet import alpha_ggx, anisotropic_alphas
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.environment import EnvironmentMap
+from gltf_iri.reference.environment_map import EnvironmentMap
 from gltf_iri.reference.facets import Axes, draw_facet, mirror_density, mirrored
-from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.lobes import evaluate_lobes
 from gltf_iri.reference.low_discrepancy import net, shifted, standard_error
 from gltf_iri.reference.surface import Surface
 
-__all__ = ["Lobes", "estimate", "reflected", "take_points"]
+__all__ = ["Lobes", "estimate", "reflected"]
 
 Float64 = NDArray[np.float64]
 Int64 = NDArray[np.int64]
@@ -82,16 +81,11 @@ def estimate(
     step = max(_CHUNK // (len(points) * techniques), 1)
     for start in range(0, count, step):
         rows = np.arange(start, min(start + step, count))
-        here = take_points(surface, rows)
+        here = surface.take(rows)
         for copy in range(copies):
             sent = _sent(here, plan, environment, film, points, rng, lobes)
             estimates[copy, rows] = here.occlusion[:, None] * sent
     return estimates
-
-
-def take_points(surface: Surface, rows: Int64) -> Surface:
-    """Return the points `rows` (k,) of a surface, in that order."""
-    return Surface(**{field.name: getattr(surface, field.name)[rows] for field in fields(Surface)})
 
 
 def _sent(
@@ -106,7 +100,7 @@ def _sent(
     """Return one estimate (n, 3), each technique drawing one net of `points` (k, 2) a surface point."""
     count, per_point = len(surface.position), len(points)
     rows = np.repeat(np.arange(count), per_point)
-    repeated = take_points(surface, rows)
+    repeated = surface.take(rows)
     techniques = list(_techniques(repeated, plan, environment))
     total = np.zeros((count, 3))
     for technique in techniques:
@@ -117,7 +111,7 @@ def _sent(
         if plan.calls_for(Effect.CLEARCOAT):
             is_lit |= np.sum(repeated.clearcoat_normal * direction, axis=1) > 0.0
         lit = np.flatnonzero(is_lit)
-        here = take_points(repeated, lit)
+        here = repeated.take(lit)
         towards_light = direction[lit]
         f = lobes(here, towards_light, FilmOn(here, film.film_ior, film.method), plan)
         value = f * environment.radiance(towards_light) / density[lit, None]
@@ -163,9 +157,11 @@ def _techniques(
 ) -> Iterator[_Sky | _Facets | _Cosine]:
     yield _Sky(environment)
     axes = Axes.around(surface.normal, surface.anisotropy_tangent)
-    yield _Facets(axes, surface.view, *anisotropic_alphas(surface.alpha, surface.anisotropy_strength))
+    yield _Facets(
+        axes, surface.view, *anisotropic_alphas(surface.alpha_roughness, surface.anisotropy_strength)
+    )
     if plan.calls_for(Effect.CLEARCOAT):
-        alpha = np.maximum(surface.clearcoat_roughness**2, ALPHA_MIN)
+        alpha = alpha_ggx(surface.clearcoat_roughness)
         yield _Facets(Axes.around(surface.clearcoat_normal), surface.view, alpha, alpha)
     if _has_wide_lobes(plan):
         yield _Cosine(axes)

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from gltf_iri.optics.dfg import dfg_terms
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.optics.layering import CLEARCOAT_F0
-from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN, d_ggx, v_smith_ggx_correlated
+from gltf_iri.optics.microfacet import N_DOT_V_MIN, alpha_ggx, d_ggx, v_smith_ggx_correlated
 from gltf_iri.optics.sheen import d_charlie, sheen_albedo, sheen_alpha, sheen_weight, v_sheen
+from gltf_iri.reference.points import unit
 from gltf_iri.reference.surface import Surface
 
 __all__ = ["clearcoat_lobe", "clearcoat_reflectance", "fibre_lobe", "fibre_passage"]
@@ -24,7 +25,7 @@ Float64 = NDArray[np.float64]
 def fibre_lobe(surface: Surface, towards_light: Float64) -> Float64:
     """Return f·cosθ of the fibres alone, (n, 3): sheen colour · D·V·(N·L), 0 for light from behind."""
     n_dot_l = np.clip(np.sum(surface.normal * towards_light, axis=1), 0.0, 1.0)
-    half = _half_vector(surface.view, towards_light)
+    half = unit(surface.view + towards_light)
     n_dot_h = np.clip(np.sum(surface.normal * half, axis=1), 0.0, 1.0)
     alpha = sheen_alpha(surface.sheen_roughness)
     # V holds 1 / N·L; where there is no light from the front, any divisor will do.
@@ -50,13 +51,14 @@ def clearcoat_lobe(surface: Surface, towards_light: Float64) -> Float64:
     """Return f·cosθ of the coat alone, (n,): factor · F(0.04; V·H)·D·V·(Nc·L), facets about Nc."""
     normal = surface.clearcoat_normal
     n_dot_l = np.clip(np.sum(normal * towards_light, axis=1), 0.0, 1.0)
-    half = _half_vector(surface.view, towards_light)
+    half = unit(surface.view + towards_light)
     v_dot_h = np.clip(np.sum(surface.view * half, axis=1), 0.0, 1.0)
     n_cross_h = np.cross(normal, half)
-    alpha = np.maximum(surface.clearcoat_roughness**2, ALPHA_MIN)
+    alpha = alpha_ggx(surface.clearcoat_roughness)
     facets = d_ggx(np.sum(n_cross_h * n_cross_h, axis=1), alpha) * v_smith_ggx_correlated(
         n_dot_l, _coat_n_dot_v(surface), alpha
     )
+    # Looking straight into the light there is no facet that could mirror it.
     is_mirrored = np.any(half != 0.0, axis=1)
     return np.asarray(surface.clearcoat * f_schlick(CLEARCOAT_F0, v_dot_h) * facets * n_dot_l * is_mirrored)
 
@@ -64,10 +66,3 @@ def clearcoat_lobe(surface: Surface, towards_light: Float64) -> Float64:
 def _coat_n_dot_v(surface: Surface) -> Float64:
     # As for the base: keeps the masking finite past the silhouette, and takes back rounding.
     return np.asarray(np.clip(np.sum(surface.clearcoat_normal * surface.view, axis=1), N_DOT_V_MIN, 1.0))
-
-
-def _half_vector(view: Float64, towards_light: Float64) -> Float64:
-    """Return H, (n, 3), unit; 0 where one looks straight into the light."""
-    half = view + towards_light
-    length = np.linalg.norm(half, axis=1, keepdims=True)
-    return np.asarray(half / np.where(length > 0.0, length, 1.0))

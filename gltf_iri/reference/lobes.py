@@ -28,8 +28,9 @@ from gltf_iri.optics.microfacet import (
 )
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.layers import clearcoat_lobe, clearcoat_reflectance, fibre_lobe, fibre_passage
+from gltf_iri.reference.points import unit
 from gltf_iri.reference.surface import Surface
 
 __all__ = ["Reflectances", "evaluate_lobes", "film_reflectances", "layered_reflectances"]
@@ -103,11 +104,9 @@ def _base_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan: Ma
     # A thin wall bends nothing: its facets see light from behind as if it came mirrored, from the front.
     light = towards_light - 2.0 * np.minimum(cosine, 0.0)[:, None] * surface.normal
     n_dot_l = np.clip(np.abs(cosine), 0.0, 1.0)
-    half = surface.view + light
-    length = np.linalg.norm(half, axis=1, keepdims=True)
+    half = unit(surface.view + light)
     # Looking straight into a light there is no half vector, and no facet that could mirror it.
-    is_lit = ((cosine > 0.0) | is_through) & (length[:, 0] > 0.0)
-    half = half / np.where(length > 0.0, length, 1.0)
+    is_lit = ((cosine > 0.0) | is_through) & np.any(half != 0.0, axis=1)
     v_dot_h = np.clip(np.sum(surface.view * half, axis=1), 0.0, 1.0)
     lobe = _facets(surface, plan, light, half, n_dot_l)[:, None]
     c = v_dot_h[:, None]
@@ -129,13 +128,13 @@ def _facets(surface: Surface, plan: MaterialPlan, light: Float64, half: Float64,
     """Return D·V, (n,), for light (n, 3) from the front."""
     normal, view = surface.normal, surface.view
     n_cross_h = np.cross(normal, half)
-    even = d_ggx(np.sum(n_cross_h * n_cross_h, axis=1), surface.alpha) * v_smith_ggx_correlated(
-        n_dot_l, surface.n_dot_v, surface.alpha
+    even = d_ggx(np.sum(n_cross_h * n_cross_h, axis=1), surface.alpha_roughness) * v_smith_ggx_correlated(
+        n_dot_l, surface.n_dot_v, surface.alpha_roughness
     )
     if not plan.calls_for(Effect.ANISOTROPY):
         return even
     tangent, bitangent = surface.anisotropy_tangent, np.cross(normal, surface.anisotropy_tangent)
-    widths = anisotropic_alphas(surface.alpha, surface.anisotropy_strength)
+    widths = anisotropic_alphas(surface.alpha_roughness, surface.anisotropy_strength)
 
     def along(vectors: Float64) -> tuple[Float64, Float64]:
         return np.sum(tangent * vectors, axis=1), np.sum(bitangent * vectors, axis=1)

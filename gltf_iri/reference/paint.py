@@ -14,16 +14,16 @@ from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.method import DEFAULT_METHOD, find_method
 from gltf_iri.reference.cutout import coverage
+from gltf_iri.reference.direct import emitted, punctual_lighting
 from gltf_iri.reference.edges import edge_distance_px
-from gltf_iri.reference.environment import EnvironmentMap
-from gltf_iri.reference.film import FilmMethod, FilmOn
+from gltf_iri.reference.environment_map import EnvironmentMap
+from gltf_iri.reference.film_on import FilmMethod, FilmOn
 from gltf_iri.reference.film_table import TabulatedFilm
 from gltf_iri.reference.gather import gather_surface
 from gltf_iri.reference.glass import Scenery, Traced, trace_glass
 from gltf_iri.reference.image_light import reflected
 from gltf_iri.reference.points import gather_points
 from gltf_iri.reference.rays import camera_rays
-from gltf_iri.reference.shade import emitted, punctual_light
 from gltf_iri.reference.stage import Stage
 from gltf_iri.reference.surface import Surface
 from gltf_iri.reference.tracer import Hits, Tracer
@@ -116,7 +116,7 @@ class Painter:
         start = np.zeros(len(origins))
         for _ in range(_MAX_BLENDED):
             hits = self._tracer.first_hits(origins[left], directions[left], t_min=start, t_max=lengths[left])
-            left, hits = left[hits.valid], _only(hits, hits.valid)
+            left, hits = left[hits.valid], hits.take(hits.valid)
             if not len(left):
                 break
             sent = self._colours(hits, directions[left], rng)
@@ -133,7 +133,7 @@ class Painter:
             is_first = tile.material[left] < 0
             tile.depth_m[left[is_first]] = depth_m[is_first]
             tile.material[left[is_first]] = self._slots[hits.primitive[is_first]]
-            tile.edge_px[left[is_first]] = self._edge_px(_only(hits, is_first), left[is_first], rows[0])
+            tile.edge_px[left[is_first]] = self._edge_px(hits.take(is_first), left[is_first], rows[0])
             going_on = alpha < 1.0
             start = hits.distance[going_on] + self._tracer.clearance_m
             left = left[going_on]
@@ -159,7 +159,7 @@ class Painter:
         slots = self._slots[hits.primitive]
         for slot in np.unique(slots):
             rows = np.flatnonzero(slots == slot)
-            here = self._material_colours(int(slot), _only(hits, rows), directions[rows], rng)
+            here = self._material_colours(int(slot), hits.take(rows), directions[rows], rng)
             sent.colour[rows], sent.standard_error[rows] = here.colour, here.standard_error
             sent.lost[rows] = here.lost
         return sent
@@ -180,7 +180,7 @@ class Painter:
         if plan.calls_for(Effect.UNLIT):
             return Traced(surface.base_color, nothing, nothing[:, 0])
         film = self._film_on(slot, surface)
-        colour = emitted(surface, plan) + punctual_light(surface, self._scenery.lights, film, plan)
+        colour = emitted(surface, plan) + punctual_lighting(surface, self._scenery.lights, film, plan)
         if self._environment is None:
             return Traced(colour, nothing, nothing[:, 0])
         reflection, error = reflected(
@@ -198,14 +198,3 @@ class Painter:
             # The truth takes a hundred microseconds; a picture asks for millions of films.
             self._methods[slot] = TabulatedFilm(method) if find_method(name).is_truth else method
         return FilmOn(surface, film_ior, self._methods[slot])
-
-
-def _only(hits: Hits, rows: NDArray[np.bool_] | Int64) -> Hits:
-    return Hits(
-        hits.valid[rows],
-        hits.distance[rows],
-        hits.primitive[rows],
-        hits.triangle[rows],
-        hits.barycentric[rows],
-        hits.is_front[rows],
-    )

@@ -1,11 +1,11 @@
 """What a material is at many points: every property after its textures, in float64, as flat arrays.
 
-Twin: `Surface` in shaders/material/surface.glsl.
+Twin: `Surface` in shaders/material/surface.glsl, where `alpha` is coverage (here `cutout.coverage`).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +19,7 @@ Float64 = NDArray[np.float64]
 class Surface:
     """n points of one material; colours and vectors (n, 3), everything else (n,).
 
-    Roughnesses are perceptual; what the plan leaves out is 0 (occlusion and specular weight: 1).
+    Roughnesses are perceptual, but for α; what the plan leaves out is 0 (occlusion and specular weight: 1).
     """
 
     position: Float64  # world, metres
@@ -28,8 +28,8 @@ class Surface:
     n_dot_v: Float64  # in [N_DOT_V_MIN, 1]
     base_color: Float64
     metallic: Float64
-    roughness: Float64
-    alpha: Float64  # α = max(roughness², ALPHA_MIN), the facets' width
+    perceptual_roughness: Float64
+    alpha_roughness: Float64  # `alpha_ggx` of it, the facets' width
     emission: Float64
     occlusion: Float64
     dielectric_f0: Float64  # before the specular weight
@@ -45,3 +45,7 @@ class Surface:
     clearcoat: Float64
     clearcoat_roughness: Float64
     clearcoat_normal: Float64  # unit, turned towards the viewer
+
+    def take(self, rows: NDArray[np.int64]) -> Surface:
+        """Return the points `rows` (k,), in that order."""
+        return Surface(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})

@@ -8,7 +8,7 @@ the same corners.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Final
 
 import numpy as np
@@ -55,6 +55,10 @@ class Hits:
     triangle: Int64  # (n,), index into the primitive's triangles
     barycentric: Float64  # (n, 3), ≥ 0, sum 1
     is_front: Mask  # seen from the side from which the winding is counter-clockwise
+
+    def take(self, rows: Mask | Int64) -> Hits:
+        """Return the hits of the rays `rows`, in that order."""
+        return Hits(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,16 +1,18 @@
 // The material at one point: every property after its textures, as glTF 2.0 §3.9 and the extensions combine them.
 
 #include "common/math.glsl"
-#include "generated/constants.glsl"
 #include "generated/material.glsl"
+#ifndef HAS_UNLIT
+#include "optics/microfacet.glsl"
+#endif
 
 struct Surface {
     vec3 base_color;
-    float alpha;
+    float alpha;            // coverage
     vec3 emission;
     float metallic;
     float perceptual_roughness;
-    float alpha_roughness;  // α = perceptual roughness²
+    float alpha_roughness;  // `alpha_ggx` of it
     float occlusion;
     vec3 dielectric_f0;     // before the specular weight
     float specular_weight;
@@ -59,6 +61,7 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
 
     s.metallic = 0.0;
     s.perceptual_roughness = 1.0;
+    s.alpha_roughness = 1.0;
 #ifndef HAS_UNLIT
     s.metallic = u_metallic_factor;
     s.perceptual_roughness = u_roughness_factor;
@@ -67,8 +70,8 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
     s.perceptual_roughness *= roughness_metallic.x;
     s.metallic *= roughness_metallic.y;
 #endif
+    s.alpha_roughness = alpha_ggx(s.perceptual_roughness);
 #endif
-    s.alpha_roughness = max(sq(s.perceptual_roughness), ALPHA_MIN);
 
     s.occlusion = 1.0;
 #ifdef HAS_OCCLUSION_TEXTURE

@@ -2,6 +2,11 @@
 // Twin: gltf_iri/optics/microfacet.py.
 
 #include "common/math.glsl"
+#include "generated/constants.glsl"
+
+// α = max(perceptual_roughness², ALPHA_MIN)
+// glTF 2.0 Appendix B.3
+float alpha_ggx(float perceptual_roughness) { return max(sq(perceptual_roughness), ALPHA_MIN); }
 
 // D = α² / (π (sin²θ_h + α² cos²θ_h)²), sin²θ_h = |N×H|²
 // glTF 2.0 Appendix B.3; |N×H|² in place of 1 − (N·H)², of which float32 keeps three digits at α = 0.01.

@@ -15,6 +15,7 @@ from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.optics.ior import fresnel0_to_ior, ior_to_fresnel0
 from gltf_iri.optics.microfacet import (
     ALPHA_MIN,
+    alpha_ggx,
     anisotropic_alphas,
     d_ggx,
     d_ggx_anisotropic,
@@ -106,6 +107,7 @@ CASES: dict[str, tuple[str, Callable[..., Float64], Sequence[Float64], ResultTyp
         [uniform(0.0, 50_000.0), uniform(0.0, 4.0 * np.pi, 3)],
         "vec3",
     ),
+    "alpha_ggx": ("optics/microfacet.glsl", alpha_ggx, [decades(1e-3, 1.0)], "float"),
     "d_ggx": ("optics/microfacet.glsl", d_ggx, [decades(1e-12, 1.0), decades(ALPHA_MIN, 1.0)], "float"),
     "v_smith_ggx_correlated": (
         "optics/microfacet.glsl",

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.testing import assert_allclose
 
-from gltf_iri.reference.environment import EnvironmentMap
+from gltf_iri.reference.environment_map import EnvironmentMap
 from gltf_iri.reference.low_discrepancy import net, shifted, standard_error
 from gltf_iri.scene.environment import studio, white
 from gltf_iri.scene.model import Environment

@@ -22,8 +22,8 @@ from gltf_iri.material.specular import Specular
 from gltf_iri.material.transmission import Transmission
 from gltf_iri.material.volume import Volume
 from gltf_iri.optics.fresnel import f_schlick
-from gltf_iri.reference.environment import EnvironmentMap
-from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.environment_map import EnvironmentMap
+from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.glass import Scenery, Traced, trace_glass
 from gltf_iri.reference.stage import build_stage
 from gltf_iri.reference.surface import Surface

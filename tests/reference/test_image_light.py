@@ -16,8 +16,8 @@ from gltf_iri.optics.microfacet import ALPHA_MIN
 from gltf_iri.optics.sheen import sheen_albedo
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.environment import EnvironmentMap
-from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.environment_map import EnvironmentMap
+from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.image_light import estimate, reflected
 from gltf_iri.reference.layers import fibre_lobe
 from gltf_iri.reference.lobes import evaluate_lobes
@@ -50,8 +50,8 @@ def _surface(n_dot_v: Any, roughness: float = 0.5, **changes: Any) -> Surface:
         "n_dot_v": cosine,
         "base_color": (1.0, 1.0, 1.0),
         "metallic": 0.0,
-        "roughness": roughness,
-        "alpha": max(roughness**2, ALPHA_MIN),
+        "perceptual_roughness": roughness,
+        "alpha_roughness": max(roughness**2, ALPHA_MIN),
         "emission": (0.0, 0.0, 0.0),
         "occlusion": 1.0,
         "dielectric_f0": (0.04, 0.04, 0.04),

@@ -11,7 +11,7 @@ from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.layers import clearcoat_reflectance
 from gltf_iri.reference.lobes import evaluate_lobes
 from gltf_iri.reference.surface import Surface
@@ -48,8 +48,8 @@ def made(seed=0, **changes):
         "n_dot_v": np.clip(np.sum(normal * view, axis=1), N_DOT_V_MIN, 1.0),
         "base_color": rng.uniform(size=(COUNT, 3)),
         "metallic": rng.uniform(size=COUNT),
-        "roughness": roughness,
-        "alpha": np.maximum(roughness**2, ALPHA_MIN),
+        "perceptual_roughness": roughness,
+        "alpha_roughness": np.maximum(roughness**2, ALPHA_MIN),
         "dielectric_f0": rng.uniform(0.0, 0.3, (COUNT, 3)),
     }
     shapes = {name: np.shape(value) for name, value in values.items()}

@@ -12,19 +12,19 @@ from numpy.typing import NDArray
 
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.film import FilmOn
+from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.layers import clearcoat_reflectance
 from gltf_iri.reference.lobes import evaluate_lobes
 from gltf_iri.reference.surface import Surface
 from gltf_iri.scene.illuminance import arriving
 from gltf_iri.scene.model import Light
 
-__all__ = ["emitted", "punctual_light"]
+__all__ = ["emitted", "punctual_lighting"]
 
 Float64 = NDArray[np.float64]
 
 
-def punctual_light(surface: Surface, lights: Sequence[Light], film: FilmOn, plan: MaterialPlan) -> Float64:
+def punctual_lighting(surface: Surface, lights: Sequence[Light], film: FilmOn, plan: MaterialPlan) -> Float64:
     """Return the radiance (n, 3) that the surface sends to the viewer of what `lights` send to it."""
     sent = np.zeros_like(surface.base_color)
     for light in lights:
