@@ -27,6 +27,13 @@ Float64 = NDArray[np.float64]
 # As large a picture as the renderer draws: 8K.
 _MAX_PIXELS: Final = 7680 * 4320
 
+# A row is painted at once: a wider one would not fit into memory with all that is known of its pixels.
+_MAX_SIDE: Final = 1 << 14
+
+# Far beyond any use, and within memory: a point's samples are drawn at once, and a path keeps what it is in.
+_MAX_SAMPLES: Final = 1 << 20
+_MAX_PATH_DEPTH: Final = 1024
+
 
 @dataclass(frozen=True, slots=True)
 class ReferenceFrame:
@@ -135,15 +142,22 @@ def _check(
     seed: int,
 ) -> None:
     width, height = size
-    if not (width >= 1 and height >= 1 and width * height <= _MAX_PIXELS):
-        raise UsageError(f"The size {width} × {height} is out of range: 1 to {_MAX_PIXELS} pixels in all.")
+    if not (1 <= width <= _MAX_SIDE and 1 <= height <= _MAX_SIDE and width * height <= _MAX_PIXELS):
+        raise UsageError(
+            f"The size {width} × {height} is out of range: 1 to {_MAX_SIDE} pixels a side, "
+            f"and {_MAX_PIXELS} in all."
+        )
     if lighting not in LIGHTINGS:
         raise UsageError(f"There is no lighting '{lighting}'; choose one of: {', '.join(LIGHTINGS)}.")
     if film_method is not None and find_method(film_method).name not in EVALUATORS:
         raise UsageError(f"The method '{film_method}' does not compute films.")
-    for number, name in ((image_samples, "image samples"), (path_depth, "surfaces a path"), (paths, "paths")):
-        if number < 1:
-            raise UsageError(f"{number} {name} are too few; ask for at least one.")
+    for number, name, most in (
+        (image_samples, "image samples", _MAX_SAMPLES),
+        (path_depth, "surfaces a path", _MAX_PATH_DEPTH),
+        (paths, "paths", _MAX_SAMPLES),
+    ):
+        if not 1 <= number <= most:
+            raise UsageError(f"{number} {name} are out of range; ask for 1 to {most}.")
     if seed < 0:
         raise UsageError(f"The seed {seed} is negative; choose a whole number from 0.")
 

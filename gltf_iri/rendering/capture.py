@@ -76,13 +76,14 @@ class Capturing:
 
     def _allocate(self, size: tuple[int, int]) -> _Textures:
         context = self._context
-        with out_of_room(size):
-            light, depth = context.texture(size, 4, dtype="f4"), context.depth_texture(size)
-            depth_m = context.texture(size, 2, dtype="f4")
+        with out_of_room(size) as held:
+            light, depth = held(context.texture(size, 4, dtype="f4")), held(context.depth_texture(size))
+            depth_m = held(context.texture(size, 2, dtype="f4"))
             depth.compare_func = ""  # read as numbers
             for texture in (light, depth_m):
                 texture.repeat_x = texture.repeat_y = False
-            drawn, linear = context.framebuffer([light], depth), context.framebuffer([depth_m])
+            drawn = held(context.framebuffer([light], depth))
+            linear = context.framebuffer([depth_m])
         return _Textures(light, depth, depth_m, drawn, linear)
 
     def release(self) -> None:

@@ -20,8 +20,14 @@ from gltf_iri.scene.model import Scene
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["FIRST_INPUTS", "PICTURE", "SECOND_INPUTS", "needed_targets", "prepare_draws"]
-__all__ += ["used_plans"]
+__all__ = [
+    "FIRST_INPUTS",
+    "PICTURE",
+    "SECOND_INPUTS",
+    "needed_targets",
+    "prepare_draws",
+    "used_plans",
+]
 
 # What a frame is drawn into.
 PICTURE: Final = "picture"
@@ -68,14 +74,16 @@ def prepare_draws(
 
     Raises MissingCapabilityError for more or larger textures than OpenGL takes.
     """
+    slot_of = {plan.index: slot for slot, plan in enumerate(plans)}
     for primitive in scene.primitives:
-        number, plan = next((i, plan) for i, plan in enumerate(plans) if plan.index == primitive.material)
+        slot = slot_of[primitive.material]
+        plan = plans[slot]
         material = Material() if plan.index == DEFAULT_MATERIAL else materials[plan.index]
         defines = permutation(plan, primitive_effects(primitive), surroundings)
         shaders = {}
         for target in targets:
             program = programs.get((*defines, *_SWITCHES[target]), material=plan.name or str(plan.index))
             shaders[target] = Shader(program, geometry.vertex_array(primitive, program))
-        own = placement_uniforms(primitive) | {"u_material": number} | material_uniforms(material, defines)
+        own = placement_uniforms(primitive) | {"u_material": slot} | material_uniforms(material, defines)
         sampled = {name: textures.get(b) for name, b in material_textures(material, defines).items()}
         yield Draw(primitive, plan, shaders, {**uniforms, **own}, {**light, **sampled})

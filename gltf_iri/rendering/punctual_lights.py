@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.errors import MissingCapabilityError
 from gltf_iri.scene.light import CONE_COSINE_MIN
 from gltf_iri.scene.model import Light
 
@@ -34,7 +35,15 @@ def pack_lights(lights: Sequence[Light]) -> NDArray[np.float32]:
 
 
 def lights_texture(context: moderngl.Context, lights: Sequence[Light]) -> moderngl.Texture:
-    """Upload `lights`, or one row of nothing; the caller releases the texture."""
+    """Upload `lights`, or one row of nothing; the caller releases the texture.
+
+    Raises MissingCapabilityError for more lights than a texture has rows: OpenGL would leave all dark.
+    """
+    limit = context.info["GL_MAX_TEXTURE_SIZE"]
+    if len(lights) > limit:
+        raise MissingCapabilityError(
+            f"The scene holds {len(lights)} lights; this OpenGL takes up to {limit}."
+        )
     rows = pack_lights(lights) if lights else np.zeros((1, 4, 4), np.float32)
     texture = context.texture((4, len(rows)), 4, rows.tobytes(), dtype="f4")
     texture.filter = (context.NEAREST, context.NEAREST)

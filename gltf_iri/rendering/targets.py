@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = ["MAX_PIXELS", "Targets", "check_size", "out_of_room", "shading_inputs"]
 
 Float32 = NDArray[np.float32]
+_T = TypeVar("_T")
 
 # 8K: with 4 samples a pixel and its depth, some 3 GB.
 MAX_PIXELS: Final = 7680 * 4320
@@ -41,14 +42,31 @@ def check_size(context: moderngl.Context, size: tuple[int, int], samples: int) -
         )
 
 
+class _Held:
+    """What was made so far."""
+
+    def __init__(self) -> None:
+        self.made: list[Any] = []
+
+    def __call__(self, thing: _T) -> _T:
+        self.made.append(thing)
+        return thing
+
+
 @contextmanager
-def out_of_room(size: tuple[int, int]) -> Iterator[None]:
-    """Turn what a driver without memory says into a MissingCapabilityError."""
+def out_of_room(size: tuple[int, int]) -> Iterator[_Held]:
+    """Turn what a driver without memory says into a MissingCapabilityError.
+
+    What the block passed through the function it is given is then released, so that a smaller size has room.
+    """
     import moderngl
 
+    held = _Held()
     try:
-        yield
+        yield held
     except moderngl.Error as error:
+        for thing in held.made:
+            thing.release()
         raise MissingCapabilityError(
             f"This OpenGL has no room for {size[0]} × {size[1]} pixels; choose a smaller size."
         ) from error
@@ -61,11 +79,13 @@ class Targets:
         self._context = context
         samples = samples if samples > 1 else 0
         self._resolved: moderngl.Framebuffer | None = None
-        with out_of_room(size):
-            colours = [context.renderbuffer(size, 4, samples=samples, dtype="f4") for _ in range(count)]
-            self.drawn = context.framebuffer(colours, context.depth_renderbuffer(size, samples=samples))
+        with out_of_room(size) as held:
+            colours = [held(context.renderbuffer(size, 4, samples=samples, dtype="f4")) for _ in range(count)]
+            depth = held(context.depth_renderbuffer(size, samples=samples))
+            self.drawn = held(context.framebuffer(colours, depth))
             if samples:
-                self._resolved = context.framebuffer([context.renderbuffer(size, 4, dtype="f4")])
+                resolved = held(context.renderbuffer(size, 4, dtype="f4"))
+                self._resolved = context.framebuffer([resolved])
 
     def clear(self) -> None:
         """Set colour and coverage to 0, and depth to the farthest."""

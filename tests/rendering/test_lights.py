@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gltf_iri.errors import MissingCapabilityError
 from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.material.specular import Specular
 from gltf_iri.scene.model import Light
@@ -35,6 +36,11 @@ def test_a_point_light_falls_off_with_the_square_of_the_distance(stage, props):
     towards = light.position - position
     distance = np.linalg.norm(towards, axis=-1)
     assert colour == pytest.approx(scattered(8.0 * towards[..., 2] / distance**3), rel=1e-5)
+
+
+def test_more_lights_than_fit_are_told(stage, props):
+    with pytest.raises(MissingCapabilityError, match="1000000 lights"):
+        lit(stage, props, *[lamp("point")] * 1_000_000)
 
 
 def test_the_range_windows_the_falloff(stage, props):
