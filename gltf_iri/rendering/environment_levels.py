@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["environment_levels"]
+__all__ = ["environment_levels", "resampled"]
 
 Float32 = NDArray[np.float32]
 Float64 = NDArray[np.float64]
@@ -20,12 +20,12 @@ def environment_levels(radiance: Float32) -> list[Float32]:
     height, width = radiance.shape[:2]
     while height > 1 or width > 1:
         height, width = max(height // 2, 1), max(width // 2, 1)
-        levels.append(_resample(levels[-1], height, width))
+        levels.append(resampled(levels[-1], height, width))
     return levels
 
 
-def _resample(image: Float32, height: int, width: int) -> Float32:
-    """Return the mean of `image` over each cell of a coarser grid; cells may cut through texels."""
+def resampled(image: Float32, height: int, width: int) -> Float32:
+    """Return the mean of `image` over each cell of a grid of another size; cells may cut through texels."""
     # Row edges in cos of the polar angle: equal steps there are equal shares of the sphere.
     rows = _average(image.astype(np.float64), _cosines(image.shape[0]), _cosines(height))
     columns = _average(rows.swapaxes(0, 1), _steps(image.shape[1]), _steps(width))

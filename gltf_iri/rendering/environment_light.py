@@ -1,7 +1,7 @@
 """Image light: an environment prepared for surfaces of every roughness.
 
 A rough mirror under an environment reflects prefiltered radiance × (F0·A + B), the split sum of Karis 2013,
-"Real Shading in Unreal Engine 4". Every pass divides by what a white environment would give, so that white
+"Real Shading in Unreal Engine 4". All blurring divides by what a white environment would give, so that white
 stays exactly 1.
 """
 
@@ -15,9 +15,10 @@ from numpy.typing import NDArray
 
 from gltf_iri.optics.sheen import sheen_alpha
 from gltf_iri.rendering.environment_lamps import split_lamps
-from gltf_iri.rendering.environment_levels import environment_levels
+from gltf_iri.rendering.environment_levels import environment_levels, resampled
+from gltf_iri.rendering.environment_lobes import blurred
 from gltf_iri.rendering.fullscreen import compute_texture
-from gltf_iri.rendering.lobe_rays import ggx_lobe, lobe_rays, sheen_lobe
+from gltf_iri.rendering.lobe_rays import ggx_lobe, lobe_rays, sheen_lobe, softened
 from gltf_iri.scene.model import Environment
 
 if TYPE_CHECKING:
@@ -37,18 +38,16 @@ Float32 = NDArray[np.float32]
 
 # Layers of perceptual roughness 1/16, √2/16 … 1, from one to the next α doubles; the map itself stands for 0.
 # Three of one size stand one below the other in a level of one texture, each level half as wide as the one
-# before; the last holds irradiance alone.
+# before. The roughest is irradiance: at α = 1, D (N·L) of N = V is (N·L)/π.
 LAYERS_PER_LEVEL: Final = 3
 LAYER_ROUGHNESS_MIN: Final = 1.0 / 16.0
 ROUGHNESS_LAYERS: Final = 9
-_LEVEL_SIZES: Final = ((512, 256), (256, 128), (128, 64), (64, 32))
-_LOBE_RAYS: Final = (39, 144, 390)
+_LEVEL_SIZES: Final = ((512, 256), (256, 128), (128, 64))
+# Lobes of the first level span few texels of the map: they are sampled. Those of the others are integrated.
+_LOBE_RAYS: Final = 39
 # Layers of sheen roughness 0, ¼ … 1: fibres send light to all sides, and their lobe changes slowly.
 SHEEN_LAYERS: Final = 5
-_SHEEN_SIZE: Final = (48, 24)
-_SHEEN_RAYS: Final = 255
-# Smooth fibres see a thin ring at the horizon; its rays blur a sun in it over some 8°.
-_SHEEN_SHARE_SR: Final = 0.02
+_SHEEN_SIZE: Final = (64, 32)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,16 +68,21 @@ class EnvironmentLight:
 def prepare_environment(context: moderngl.Context, environment: Environment) -> EnvironmentLight:
     """Prefilter `environment`; the caller releases the result."""
     lamps, dim = split_lamps(environment.radiance)
-    rest = _upload(context, environment_levels(dim))
+    levels = environment_levels(dim)
+    rest = _upload(context, levels)
     sharp = _upload(context, environment_levels(environment.radiance)) if len(lamps) else rest
-    return EnvironmentLight(sharp, rest, _lamps(context, lamps), _layers(context, rest))
+    return EnvironmentLight(sharp, rest, _lamps(context, lamps), _layers(context, rest, levels))
 
 
-def prepare_sheen(context: moderngl.Context, light: EnvironmentLight) -> moderngl.Texture:
+def prepare_sheen(context: moderngl.Context, environment: Environment) -> moderngl.Texture:
     """Prefilter the whole map as fibres see it, lamps included; the caller releases the result."""
-    alphas = [sheen_alpha(layer / (SHEEN_LAYERS - 1)) for layer in range(SHEEN_LAYERS)]
-    rays = [lobe_rays(sheen_lobe(float(a)), _SHEEN_RAYS, share_min_sr=_SHEEN_SHARE_SR) for a in alphas]
-    texture = _prefilter(context, light.sharp, np.stack(rays), _SHEEN_SIZE)
+    alphas = [float(sheen_alpha(layer / (SHEEN_LAYERS - 1))) for layer in range(SHEEN_LAYERS)]
+    width, height = _SHEEN_SIZE
+    source = resampled(environment.radiance, height, width)
+    # Smooth fibres see a ring at the horizon that is narrower than a row of texels.
+    lobes = [softened(sheen_lobe(alpha), np.pi / height) for alpha in alphas]
+    stack = np.concatenate([blurred(source, lobe) for lobe in lobes])
+    texture = context.texture((width, height * SHEEN_LAYERS), 3, stack.tobytes(), dtype="f4")
     _wrap(context, texture)
     return texture
 
@@ -92,53 +96,40 @@ def _lamps(context: moderngl.Context, lamps: Float32) -> moderngl.Texture:
     return texture
 
 
-def _layers(context: moderngl.Context, rest: moderngl.Texture) -> moderngl.Texture:
-    made = [_lobes(context, rest, level) for level in range(len(_LOBE_RAYS))]
-    made.append(
-        compute_texture(
-            context,
-            "pass/prefilter_diffuse.frag",
-            _stack_size(len(_LOBE_RAYS)),
-            4,
-            {
-                "u_layer_size": _LEVEL_SIZES[-1],
-            },
-            {"u_environment": rest},
-        )
-    )
-    # OpenGL 3.3 as moderngl shows it cannot draw into a level, so they travel.
-    texture = context.texture(_stack_size(0), 4, made[0].read(), dtype="f4")
-    texture.build_mipmaps(0, len(made) - 1)  # makes room for the levels
-    for level, stack in enumerate(made[1:], start=1):
-        texture.write(stack.read(), level=level)
-    for stack in made:
-        stack.release()
+def _layers(context: moderngl.Context, rest: moderngl.Texture, levels: list[Float32]) -> moderngl.Texture:
+    sampled = _sampled_lobes(context, rest)
+    # OpenGL 3.3 as moderngl shows it cannot draw into a level, so it travels.
+    texture = context.texture(_stack_size(0), 4, sampled.read(), dtype="f4")
+    sampled.release()
+    texture.build_mipmaps(0, len(_LEVEL_SIZES) - 1)  # makes room for the levels
+    for level, (width, height) in enumerate(_LEVEL_SIZES[1:], start=1):
+        source = next((found for found in reversed(levels) if len(found) >= height), levels[0])
+        seen = resampled(source, height, width)
+        stack = np.concatenate([blurred(seen, ggx_lobe(alpha)) for alpha in _alphas(level)])
+        opaque = np.concatenate([stack, np.ones_like(stack[..., :1])], axis=-1)
+        texture.write(np.ascontiguousarray(opaque).tobytes(), level=level)
     _wrap(context, texture)
     texture.filter = (context.LINEAR_MIPMAP_NEAREST, context.LINEAR)
     return texture
 
 
-def _lobes(context: moderngl.Context, rest: moderngl.Texture, level: int) -> moderngl.Texture:
-    """Return the layers of roughness of one level, one below the other."""
+def _alphas(level: int) -> list[float]:
     first = LAYERS_PER_LEVEL * level
-    alphas = [LAYER_ROUGHNESS_MIN**2 * 2.0**number for number in range(first, first + LAYERS_PER_LEVEL)]
-    rays = np.stack([lobe_rays(ggx_lobe(alpha), _LOBE_RAYS[level]) for alpha in alphas])
-    return _prefilter(context, rest, rays, _LEVEL_SIZES[level])
+    return [LAYER_ROUGHNESS_MIN**2 * 2.0**number for number in range(first, first + LAYERS_PER_LEVEL)]
 
 
-def _prefilter(
-    context: moderngl.Context, source: moderngl.Texture, rays: Float32, size: tuple[int, int]
-) -> moderngl.Texture:
-    """Return a layer of `size` for each row of `rays` (layers, n, 4), one below the other."""
+def _sampled_lobes(context: moderngl.Context, rest: moderngl.Texture) -> moderngl.Texture:
+    """Return the layers of the first level, one below the other."""
+    rays = np.stack([lobe_rays(ggx_lobe(alpha), _LOBE_RAYS) for alpha in _alphas(0)])
     samples = context.texture((rays.shape[1], len(rays)), 4, rays.tobytes(), dtype="f4")
     samples.filter = (context.NEAREST, context.NEAREST)
     stack = compute_texture(
         context,
         "pass/prefilter.frag",
-        (size[0], size[1] * len(rays)),
+        _stack_size(0),
         4,
-        {"u_layer_size": size},
-        {"u_environment": source, "u_samples": samples},
+        {"u_layer_size": _LEVEL_SIZES[0]},
+        {"u_environment": rest, "u_samples": samples},
     )
     samples.release()
     return stack

@@ -58,7 +58,7 @@ class ImageLightStore:
         }
         if with_sheen:
             if prepared.sheen is None:
-                prepared.sheen = prepare_sheen(self._context, light)
+                prepared.sheen = prepare_sheen(self._context, environment)
             textures["u_environment_sheen"] = prepared.sheen
         return textures
 

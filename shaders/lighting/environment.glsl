@@ -1,5 +1,5 @@
 // The environment: the sharp map, the same without its lamps, that one prefiltered, and the lamps by formula.
-// Made by gltf_iri/rendering/environment_light.py with shaders/pass/prefilter*.frag.
+// Made by gltf_iri/rendering/environment_light.py.
 
 #include "common/math.glsl"
 #include "generated/constants.glsl"
@@ -17,7 +17,7 @@ uniform sampler2D u_environment_layers;
 uniform sampler2D u_environment_sheen;
 #endif
 
-// A layer of roughness; the one behind the last is irradiance.
+// A layer of roughness; the last is irradiance.
 vec3 environment_layer(vec2 uv, int layer) {
     int level = layer / LAYERS_PER_LEVEL;
     return sample_stack(u_environment_layers, LAYERS_PER_LEVEL, layer - level * LAYERS_PER_LEVEL, level, uv).rgb;
@@ -74,7 +74,7 @@ vec3 mirrored_radiance(vec3 direction, vec3 n, vec3 v, float perceptual_roughnes
 
 // E/π: a white environment gives 1.
 vec3 environment_irradiance(vec3 normal) {
-    return environment_layer(equirect_from_direction(normal), ROUGHNESS_LAYERS) + lamp_irradiance(normal);
+    return environment_layer(equirect_from_direction(normal), ROUGHNESS_LAYERS - 1) + lamp_irradiance(normal);
 }
 
 #ifdef HAS_SHEEN

@@ -13,6 +13,7 @@ from gltf_iri.material.transmission import Transmission
 from gltf_iri.material.volume import Volume
 from gltf_iri.rendering.environment_levels import environment_levels
 from gltf_iri.rendering.environment_light import LAYERS_PER_LEVEL, ROUGHNESS_LAYERS, prepare_environment
+from gltf_iri.rendering.lobe_rays import ggx_lobe
 from gltf_iri.scene.model import Environment
 
 AXIS = np.array([0.48, 0.6, -0.64])
@@ -41,11 +42,11 @@ def slanted():
 
 @pytest.fixture(scope="module")
 def layers(_session_context, slanted):
-    """Every layer of roughness from the smoothest on, and last irradiance; red alone."""
+    """Every layer of roughness from the smoothest on; red alone."""
     prepared = prepare_environment(_session_context, slanted)
     width, height = prepared.layers.size
     found = []
-    for number in range(ROUGHNESS_LAYERS + 1):
+    for number in range(ROUGHNESS_LAYERS):
         level, index = divmod(number, LAYERS_PER_LEVEL)
         stack = np.frombuffer(prepared.layers.read(level=level), np.float32)
         stack = stack.reshape(LAYERS_PER_LEVEL, (height >> level) // LAYERS_PER_LEVEL, width >> level, 4)
@@ -71,7 +72,7 @@ def test_every_layer_blurs_alike_in_all_directions_seam_and_poles_included(layer
 
 @pytest.mark.usefixtures("gl_context")
 def test_rougher_layers_blur_more(layers):
-    assert np.all(np.diff([np.ptp(layer) for layer in layers[:-1]]) < 0.0)
+    assert np.all(np.diff([np.ptp(layer) for layer in layers]) < 0.0)
 
 
 @pytest.mark.parametrize("up", [1.0, -1.0])
@@ -84,6 +85,29 @@ def test_a_surface_that_faces_a_pole_reads_its_own_layer_alone(stage, props, sla
     assert np.abs(inputs.normal[32, 32] - [0.0, up, 0.0]).max() <= 0.04
     expected = 1.0 + 2.0 / 3.0 * (inputs.normal[32, 32] @ AXIS)
     assert np.abs(inputs.irradiance[32, 32] - expected).max() <= 5e-3
+
+
+@pytest.mark.parametrize("number", [3, 4, 6, 7, 8])
+def test_a_rough_lobe_sees_a_small_bright_window_as_its_integral_says(gl_context, number):
+    """Σ L D (N·L) dω / Σ D (N·L) dω over all texels, also far from the window, where rays would miss it."""
+    sky = np.full((128, 256, 3), 0.01, np.float32)
+    sky[30:36, 40:52] = 300.0
+    prepared = prepare_environment(gl_context, Environment("window", sky))
+    level, index = divmod(number, LAYERS_PER_LEVEL)
+    width, height = prepared.layers.size
+    stack = np.frombuffer(prepared.layers.read(level=level), np.float32)
+    layer = stack.reshape(LAYERS_PER_LEVEL, (height >> level) // LAYERS_PER_LEVEL, width >> level, 4)[
+        index, ..., 0
+    ]
+    prepared.release()
+    texels = directions(128, 256).reshape(-1, 3)
+    steradians = np.repeat(-np.diff(np.cos(np.pi * np.arange(129) / 128)), 256)
+    normals = directions(*layer.shape, pole_to_pole=True)[::9, ::13].reshape(-1, 3)
+    half_sine_squared = np.minimum(0.25 * np.sum(np.square(normals[:, None] - texels), axis=-1), 0.5)
+    lobe = ggx_lobe(2.0**number / 256.0)(half_sine_squared) * steradians
+    expected = lobe @ sky[..., 0].reshape(-1) / lobe.sum(axis=1)
+    error = np.abs(layer[::9, ::13].reshape(-1) - expected)
+    assert np.all(error <= np.maximum(0.03 * expected, 1e-3 * layer.max()))
 
 
 def test_halving_keeps_the_light_of_the_whole_sphere():

@@ -59,7 +59,7 @@ def sheen_layers(gl_context, radiance):
     store = ImageLightStore(gl_context)
     texture = store.textures(Environment("sky", radiance), with_sheen=True)["u_environment_sheen"]
     width, height = texture.size
-    layers = np.frombuffer(texture.read(), np.float32).reshape(SHEEN_LAYERS, height // SHEEN_LAYERS, width, 4)
+    layers = np.frombuffer(texture.read(), np.float32).reshape(SHEEN_LAYERS, height // SHEEN_LAYERS, width, 3)
     store.release()
     return layers[..., 0].astype(np.float64)
 
