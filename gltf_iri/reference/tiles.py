@@ -4,9 +4,13 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import signal
+import sys
+import threading
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from multiprocessing.context import SpawnContext
 from typing import Final
 
@@ -55,15 +59,22 @@ def paint_tiles(job: Job, processes: int | None) -> Iterator[tuple[int, Tile]]:
     # A fresh interpreter each: a fork would copy OpenGL's threads and locks in whatever state they are.
     context = multiprocessing.get_context("spawn")
     _check_that_processes_start(context)
+    others = set(multiprocessing.active_children())
     with ProcessPoolExecutor(workers, context, initializer=_receive, initargs=(job,)) as pool:
-        pending = {pool.submit(_paint, index, rows): index for index, rows in tiles}
         try:
+            with _interrupts_held():
+                pending = {pool.submit(_paint, index, rows): index for index, rows in tiles}
             for done in as_completed(pending):
                 yield pending[done], done.result()
         except BrokenProcessPool as error:
             raise MissingCapabilityError(
                 f"One of {workers} processes died, most likely for want of memory; ask for fewer of them."
             ) from error
+        except BaseException:
+            # Whoever stops waits for no tile: one may take minutes.
+            for process in set(multiprocessing.active_children()) - others:
+                process.terminate()
+            raise
         finally:
             pool.shutdown(wait=True, cancel_futures=True)
 
@@ -72,7 +83,9 @@ def _check_that_processes_start(context: SpawnContext) -> None:
     """Start one without a job: handing a large one to a process that ends early would block for ever."""
     try:
         with ProcessPoolExecutor(1, context) as pool:
-            pool.submit(os.getpid).result()
+            with _interrupts_held():
+                started = pool.submit(os.getpid)
+            started.result()
     except OSError as error:
         raise MissingCapabilityError(
             f"This machine starts no processes that share memory ({error.strerror}); ask for one process."
@@ -82,6 +95,33 @@ def _check_that_processes_start(context: SpawnContext) -> None:
             'A script that paints with several processes calls this under `if __name__ == "__main__":`, for '
             "each of them reads it again; or ask for one process."
         ) from error
+
+
+@contextmanager
+def _interrupts_held() -> Iterator[None]:
+    """Keep Ctrl-C waiting while the block runs, and for ever from the processes that it starts.
+
+    A terminal sends it to all of them: those would each print a traceback where the first says one sentence,
+    and one that is only half started would outlive it.
+    """
+    if sys.platform == "win32":  # where there are no masks
+        yield
+        return
+    # The mask is for the processes, which inherit it. Here another thread takes the signal all the same.
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    handler = signal.getsignal(signal.SIGINT)
+    holds = callable(handler) and threading.current_thread() is threading.main_thread()
+    came: list[int] = []
+    if holds:
+        signal.signal(signal.SIGINT, lambda number, _: came.append(number))
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
+        if holds:
+            signal.signal(signal.SIGINT, handler)
+        if came:
+            signal.raise_signal(signal.SIGINT)
 
 
 def _receive(job: Job) -> None:

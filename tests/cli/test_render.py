@@ -4,6 +4,12 @@ from __future__ import annotations
 
 import base64
 import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -214,3 +220,31 @@ def test_an_orbit_may_be_drawn_by_the_reference_with_the_truth(triangle, tmp_pat
     told = json.loads(capsys.readouterr().out)
     assert told["method"] == "spectral"
     assert len(told["outputs"]) == 2
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Ctrl-C is a signal on POSIX only")
+def test_an_interrupted_reference_is_one_sentence_and_leaves_nothing(triangle, tmp_path):
+    pytest.importorskip("embreex")
+    out = tmp_path / "pictures"
+    out.mkdir()
+    # Hours of work in several processes, whatever the machine.
+    call = ["render", str(triangle), "-o", str(out / "a.png"), "--reference", "--samples", "100000"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "gltf_iri", *call, "--size", "320x240"],
+        cwd=Path(__file__).parents[2],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    ) as painting:
+        time.sleep(2.5)
+        assert painting.poll() is None
+        os.killpg(painting.pid, signal.SIGINT)  # as a terminal does: to all processes
+        try:
+            # Returns when the last process that holds the pipes has ended.
+            said = painting.communicate(timeout=30)
+        finally:
+            if painting.poll() is None:
+                os.killpg(painting.pid, signal.SIGKILL)
+    assert (painting.returncode, *said) == (130, "", "gltf-iri: Interrupted.\n")
+    assert list(out.iterdir()) == []
