@@ -23,6 +23,7 @@ from gltf_iri.errors import GltfIriError
 __all__ = ["VERBS", "cli", "run"]
 
 PROGRAM = "gltf-iri"
+PACKAGE = "gltf_iri"
 
 # Verb → the line that `--help` shows; the command itself is `command` in gltf_iri/cli/<verb>.py.
 VERBS: Mapping[str, str] = MappingProxyType(
@@ -96,6 +97,10 @@ def run(arguments: Sequence[str]) -> int:
         return _reader_left()
     except OSError as error:
         return _fail(_system_sentence(error), 2)
+    except ImportError as error:
+        if (error.name or PACKAGE).partition(".")[0] == PACKAGE:
+            raise  # ours: a bug
+        return _fail(f"A package does not load ({error}); install {PROGRAM} anew with pip.", 3)
     except MemoryError:
         return _fail("The machine has too little memory for this: ask for a smaller picture.", 3)
     return 0

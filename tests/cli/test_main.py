@@ -105,6 +105,11 @@ def test_the_version_that_is_printed_is_the_packages(capsys):
             "gltf-iri: out.png: Permission denied.\n",
         ),
         (click.ClickException("Bad day."), 1, "gltf-iri: Bad day.\n"),
+        (
+            ModuleNotFoundError("No module 'jinja2'", name="jinja2"),
+            3,
+            "gltf-iri: A package does not load (No module 'jinja2'); install gltf-iri anew with pip.\n",
+        ),
         (KeyboardInterrupt(), 130, "gltf-iri: Interrupted.\n"),
         (
             MemoryError(),
@@ -123,9 +128,17 @@ def test_a_failure_is_one_sentence_on_stderr_and_its_exit_code(
     assert shown.err == sentence
 
 
-def test_a_bug_is_not_swallowed(failing_verb):
-    failing_verb(ZeroDivisionError("division by zero"))
-    with pytest.raises(ZeroDivisionError):
+@pytest.mark.parametrize(
+    "bug",
+    [
+        ZeroDivisionError("division by zero"),
+        ImportError("cannot import name 'x'", name="gltf_iri.optics"),
+        ImportError("no name at all"),
+    ],
+)
+def test_a_bug_is_not_swallowed(failing_verb, bug):
+    failing_verb(bug)
+    with pytest.raises(type(bug)):
         main.run(["plan"])
 
 
