@@ -26,6 +26,11 @@ _DEFAULT_FILM = Iridescence()
 _DEFAULT_BASE = Ior()
 _DEFAULT_OUTSIDE_IOR = 1.0
 
+# Textures that make another base under the film; the film's own have their place in the title.
+_TEXTURES_OF_THE_BASE = frozenset(
+    {"base-color-texture", "metallic-roughness-texture", "specular-texture", "specular-color-texture"}
+)
+
 _LISTED_MAX = 8  # materials that an error names; `plan` lists them all
 
 
@@ -147,6 +152,7 @@ def _from_file(
     result = _result(cosines, done.film)
     result |= {"material": plan.name, "index": index, "thickness_nm": done.thickness_nm}
     result |= {"thickness_range_nm": done.thickness_range_nm, "factor": done.factor}
+    result["textures_left_out"] = [e.value for e in plan.effects if e.value in _TEXTURES_OF_THE_BASE]
     if layered:
         result |= {"specular": done.layer.specular, "base_weight": done.layer.base_weight}
     return result
@@ -204,6 +210,9 @@ def _print(result: dict[str, Any]) -> None:
         of_range = "" if low_nm == high_nm else f" of {low_nm:g} to {high_nm:g}"
         title += f"; material {label}, {result['thickness_nm']:g} nm{of_range}, factor {result['factor']:g}"
     print_table(columns, rows, title=title)
+    if result.get("textures_left_out"):
+        left_out = ", ".join(result["textures_left_out"])
+        note(f"The base is that of the material's factors alone, without {left_out}.")
     for case, where in result["undefined"].items():
         note(f"the text leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")
 

@@ -72,6 +72,21 @@ def test_layered_adds_specular_and_base_weight(two_films: str, capsys: pytest.Ca
     assert np.array(found["base_weight"]).shape == (2,)
 
 
+def test_textures_that_change_the_base_are_named_when_left_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    base = {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0}}
+    textured = {**TWO_FILMS["materials"][2], "pbrMetallicRoughness": base}
+    images = {"textures": [{"source": 0}], "images": [{"uri": "a.png"}]}
+    path = tmp_path / "textured.gltf"
+    path.write_text(json.dumps({**TWO_FILMS, "materials": [TWO_FILMS["materials"][1], textured], **images}))
+    assert answer(capsys, str(path), "--material", "a")["textures_left_out"] == []
+    left_out = ["base-color-texture", "metallic-roughness-texture"]
+    assert answer(capsys, str(path), "--material", "b")["textures_left_out"] == left_out
+    assert run(["evaluate", str(path), "--material", "b"]) == 0
+    assert f"without {', '.join(left_out)}." in capsys.readouterr().err
+
+
 def test_table_shows_what_json_says(two_films: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["evaluate", two_films, "--material", "b", "--cos", "0.5"]) == 0
     shown = capsys.readouterr().out
