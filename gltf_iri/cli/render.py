@@ -76,8 +76,8 @@ def command(
     """Draw FILE to OUT without a window.
 
     PNG is 8-bit sRGB, tone mapped; WebP the same, smaller and not exact. EXR is linear float32 Rec.709, never
-    tone mapped; its alpha tells how much of a pixel the model covers. Behind the model is the environment out
-    of focus, in the studio a card.
+    tone mapped; its alpha tells how much of a pixel the model covers. Behind the model is the environment,
+    out of focus (by rays it is sharp), in the studio a card.
     """
     from gltf_iri.errors import UsageError
     from gltf_iri.planning.decide import complete_plans, plan_materials

@@ -142,7 +142,7 @@ def _draw_exactly(
     size: tuple[int, int],
     advance: Callable[[], None],
 ) -> _Exact:
-    lights = "the scene's own"
+    lights = "the scene's own lights"
     if not scene.lights:
         scene, lights = replace(scene, lights=rig(scene, camera)), RIG
 
