@@ -89,10 +89,11 @@ class TextureStore:
 
 def _linear(pixels: NDArray[np.uint8], is_srgb: bool) -> NDArray[np.float32]:
     """Return linear float32 texels; alpha is linear in every colour space."""
-    values = pixels.astype(np.float64) / 255.0
+    levels = np.arange(256) / 255.0
+    values = levels.astype(np.float32)[pixels]
     if is_srgb:
-        values[..., :3] = srgb_decode(values[..., :3])
-    return values.astype(np.float32)
+        values[..., :3] = srgb_decode(levels).astype(np.float32)[pixels[..., :3]]
+    return values
 
 
 def _set_wrapping(texture: moderngl.Texture, sampler: Texture) -> None:

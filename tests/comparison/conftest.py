@@ -1,10 +1,11 @@
-"""Shading inputs made by hand: a row of equal pixels, seen head on from one metre."""
+"""One renderer for all, and shading inputs made by hand: equal pixels in a row, seen from one metre."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 
+import moderngl
 import numpy as np
 import pytest
 
@@ -15,7 +16,23 @@ from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.rendering.frame import Frame, ShadingInputs
-from gltf_iri.scene.model import Camera, Light
+from gltf_iri.rendering.render import Renderer
+from gltf_iri.scene.environment import studio
+from gltf_iri.scene.model import Camera, Environment, Light
+
+
+@pytest.fixture(scope="session")
+def renderer(_session_context: moderngl.Context) -> Iterator[Renderer]:
+    """Keeps programs and prefiltered light from test to test; tests ask for `gl_context` beside it."""
+    renderer = Renderer(_session_context)
+    yield renderer
+    renderer.release()
+
+
+@pytest.fixture(scope="session")
+def studio_light() -> Environment:
+    """The studio, the same object for every test: it is prefiltered once."""
+    return studio()
 
 
 @pytest.fixture

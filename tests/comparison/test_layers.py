@@ -13,11 +13,10 @@ from gltf_iri.comparison.reference_run import against_reference
 from gltf_iri.comparison.rig import RIG, rig
 from gltf_iri.comparison.run import compare
 from gltf_iri.planning.decide import plan_materials
-from gltf_iri.rendering.render import Renderer
 from gltf_iri.samples.builder import GLTFBuilder
 from gltf_iri.samples.png import encode_png, texel_centres, to_bytes
 from gltf_iri.samples.sphere import sphere
-from gltf_iri.scene.environment import studio, white
+from gltf_iri.scene.environment import white
 from gltf_iri.scene.framing import frame_scene
 from gltf_iri.scene.load import load
 from gltf_iri.tolerances import GLSL_PIXEL_RELATIVE
@@ -85,11 +84,6 @@ GLASSES = {
 LAYERS = OPAQUE | GLASSES
 
 
-@pytest.fixture(scope="module")
-def renderer(_session_context) -> Renderer:
-    return Renderer(_session_context)
-
-
 def ball(folder: Path, name: str, roughness: float = 0.45) -> Path:
     """A ball of radius 1 m with layers of `LAYERS`, textures painted all over."""
     metallic, extensions = LAYERS[name]
@@ -123,9 +117,9 @@ def staged(path: Path) -> tuple[Any, ...]:
 
 @pytest.mark.parametrize("name", LAYERS)
 def test_glsl_is_python_whatever_lies_on_a_material(
-    gl_context, renderer, tmp_path, name, record_property
+    gl_context, renderer, studio_light, tmp_path, name, record_property
 ) -> None:
-    comparison = compare(renderer, *staged(ball(tmp_path, name)), studio(), size=SIZE)
+    comparison = compare(renderer, *staged(ball(tmp_path, name)), studio_light, size=SIZE)
     rough = comparison.whole.glsl_vs_python.rough
     record_property("measured", f"GLSL − Python, {name}: {rough.max_relative} on {rough.pixels} pixels")
     assert rough.pixels > 0.5 * SIZE[0] * SIZE[1]

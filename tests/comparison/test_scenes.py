@@ -14,10 +14,8 @@ from gltf_iri.cli.main import run
 from gltf_iri.comparison import judge as judge_module
 from gltf_iri.comparison.run import compare
 from gltf_iri.planning.decide import plan_materials
-from gltf_iri.rendering.render import Renderer
 from gltf_iri.resources import spec_root
 from gltf_iri.samples.collection import write_samples
-from gltf_iri.scene.environment import studio
 from gltf_iri.scene.framing import frame_scene
 from gltf_iri.scene.load import load
 from gltf_iri.scene.model import Light
@@ -46,17 +44,19 @@ def samples(tmp_path_factory) -> dict[str, Path]:
     return {path.parent.name: path for path in models}
 
 
-def compared(context, path: Path, method: str | None = None):
-    model = load(path)
-    scene = model.scene()
-    scene = replace(scene, lights=(*scene.lights, *LIGHTS))
-    plans = plan_materials(model.materials, method=method)
-    camera = frame_scene(scene, aspect=1.0)
-    renderer = Renderer(context)
-    try:
-        return compare(renderer, model, scene, plans, camera, studio(), size=SIZE)
-    finally:
-        renderer.release()
+@pytest.fixture
+def compared(gl_context, renderer, studio_light):
+    """Draw a file under its own lights, `LIGHTS` and the studio, and compare."""
+
+    def build(path: Path, method: str | None = None):
+        model = load(path)
+        scene = model.scene()
+        scene = replace(scene, lights=(*scene.lights, *LIGHTS))
+        plans = plan_materials(model.materials, method=method)
+        camera = frame_scene(scene, aspect=1.0)
+        return compare(renderer, model, scene, plans, camera, studio_light, size=SIZE)
+
+    return build
 
 
 def check(comparison, record_property) -> None:
@@ -72,15 +72,13 @@ def check(comparison, record_property) -> None:
 
 @pytest.mark.parametrize("method", ["khr", "khr-guarded"])
 @pytest.mark.parametrize("name", SAMPLES)
-def test_glsl_is_python_on_every_pixel_of_a_sample(
-    gl_context, samples, name, method, record_property
-) -> None:
-    check(compared(gl_context, samples[name], method), record_property)
+def test_glsl_is_python_on_every_pixel_of_a_sample(compared, samples, name, method, record_property) -> None:
+    check(compared(samples[name], method), record_property)
 
 
 @pytest.mark.parametrize("name", SHARED)
-def test_glsl_is_python_on_every_pixel_of_a_real_asset(gl_context, shared_dir, name, record_property) -> None:
-    check(compared(gl_context, shared_dir / "assets" / name), record_property)
+def test_glsl_is_python_on_every_pixel_of_a_real_asset(compared, shared_dir, name, record_property) -> None:
+    check(compared(shared_dir / "assets" / name), record_property)
 
 
 def test_command_writes_a_valid_report_and_ends_with_0(gl_context, samples, tmp_path, capsys) -> None:
