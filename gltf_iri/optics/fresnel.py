@@ -16,7 +16,7 @@ Complex128 = NDArray[np.complex128]
 
 
 def f_schlick(f0: ArrayLike, cos_theta: ArrayLike) -> Float64:
-    """Return F₀ + (1 − F₀)(1 − cos θ)⁵ (Schlick 1994, Eq. 15; glTF 2.0 §B.3.3)."""
+    """Return F₀ + (1 − F₀)(1 − cos θ)⁵ (Schlick 1994, Eq. 15; glTF 2.0 §B.3.4)."""
     f0 = np.asarray(f0, dtype=np.float64)
     return np.asarray(f0 + (1.0 - f0) * _fifth_power(1.0 - np.asarray(cos_theta, dtype=np.float64)))
 

@@ -48,12 +48,12 @@ class Layer:
 
 
 def conductor_fresnel(f0: ArrayLike, v_dot_h: ArrayLike) -> Float64:
-    """Reflectance (..., 3) of a bare metal: F0 + (1 − F0)(1 − |V·H|)⁵, glTF 2.0 Appendix B.2.1."""
+    """Reflectance (..., 3) of a bare metal: F0 + (1 − F0)(1 − |V·H|)⁵, glTF 2.0 Appendix B.3.4."""
     return f_schlick(np.asarray(f0, np.float64), np.abs(_per_channel(v_dot_h)))
 
 
 def fresnel_mix(fresnel: ArrayLike) -> Layer:
-    """A colourless layer of reflectance `fresnel` (...): base · (1 − F) + F, glTF 2.0 Appendix B.2.2."""
+    """A colourless layer of reflectance `fresnel` (...): base · (1 − F) + F, glTF 2.0 Appendix B.3.4."""
     grey = np.asarray(fresnel, np.float64)
     return Layer(grey[..., None] * np.ones(3), 1.0 - grey)
 

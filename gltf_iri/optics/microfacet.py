@@ -58,7 +58,7 @@ def v_smith_ggx_correlated(n_dot_l: ArrayLike, n_dot_v: ArrayLike, alpha: ArrayL
     """Visibility G / (4 N·L N·V), with shadowing and masking correlated through the facets' height.
 
     V = ½ / (N·L √(α² + (1 − α²)(N·V)²) + N·V √(α² + (1 − α²)(N·L)²)), Heitz 2014 Eq. 99 with Eq. 72's Λ.
-    (The core text prints the separable product; it leaves the choice of G to the implementation.)
+    glTF 2.0 Appendix B.3.2 prints the same; its earlier revisions had the separable product.
 
     Parameters
     ----------

@@ -11,11 +11,11 @@ struct Layer {
 };
 
 // F = F0 + (1 − F0)(1 − |V·H|)⁵
-// glTF 2.0 Appendix B.2.1
+// glTF 2.0 Appendix B.3.4
 vec3 conductor_fresnel(vec3 f0, float v_dot_h) { return f_schlick(f0, abs(v_dot_h)); }
 
 // base · (1 − F) + F
-// glTF 2.0 Appendix B.2.2
+// glTF 2.0 Appendix B.3.4
 Layer fresnel_mix(float fresnel) { return Layer(vec3(fresnel), 1.0 - fresnel); }
 
 // base · (1 − max(R, G, B)) + colour; 1 − colour would tint the base with the opposite hue.
