@@ -127,6 +127,15 @@ def _interrupts_held() -> Iterator[None]:
 def _receive(job: Job) -> None:
     global _job
     _job = job
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """End this process when the one that started it is gone: a killed one leaves it waiting for ever."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _paint(index: int, rows: tuple[int, int]) -> Tile:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import pickle
+import signal
 import subprocess
 import sys
 from dataclasses import replace
@@ -73,11 +74,27 @@ class EndsTheProcess:
         return os._exit, (1,)
 
 
-def test_a_process_that_dies_is_told(props):
+def some_tiles(props):
     stage = build_stage(*props.scene_of(props.quad()))
-    job = Job(stage, props.camera(), None, (80, 120), None, "D65", "all", True, 16, 8, 8, 0)
+    return Job(stage, props.camera(), None, (80, 120), None, "D65", "all", True, 16, 8, 8, 0)
+
+
+def run_script(text, job, folder):
+    """Run `text` with the path of the pickled `job` until no process holds its output open."""
+    (folder / "job").write_bytes(pickle.dumps(job))
+    (folder / "script.py").write_text(text, encoding="utf-8")
+    return subprocess.run(
+        [sys.executable, folder / "script.py", folder / "job"],
+        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+
+
+def test_a_process_that_dies_is_told(props):
     with pytest.raises(MissingCapabilityError, match="One of 2 processes died"):
-        list(paint_tiles(replace(job, stage=EndsTheProcess()), 2))
+        list(paint_tiles(replace(some_tiles(props), stage=EndsTheProcess()), 2))
 
 
 UNGUARDED = """
@@ -87,18 +104,24 @@ list(paint_tiles(pickle.load(open(sys.argv[1], "rb")), 2))
 """
 
 
+KILLED = """
+import os, pickle, signal, sys
+from gltf_iri.reference.tiles import paint_tiles
+if __name__ == "__main__":
+    tiles = paint_tiles(pickle.load(open(sys.argv[1], "rb")), 2)
+    next(tiles)
+    os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL is a signal on POSIX only")
+def test_processes_end_with_the_one_that_started_them(props, tmp_path):
+    done = run_script(KILLED, some_tiles(props), tmp_path)
+    assert done.returncode == -signal.SIGKILL
+
+
 def test_a_script_that_workers_would_run_again_is_told_so(props, tmp_path):
-    stage = build_stage(*props.scene_of(props.quad()))
-    job = Job(stage, props.camera(), None, (80, 120), None, "D65", "all", True, 16, 8, 8, 0)
-    (tmp_path / "job").write_bytes(pickle.dumps(job))
-    (tmp_path / "script.py").write_text(UNGUARDED, encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, tmp_path / "script.py", tmp_path / "job"],
-        env={**os.environ, "PYTHONPATH": str(Path(__file__).parents[2])},
-        capture_output=True,
-        text=True,
-        timeout=60,
-    )
+    done = run_script(UNGUARDED, some_tiles(props), tmp_path)
     assert done.returncode == 1
     assert done.stderr.splitlines()[-1].startswith("gltf_iri.errors.UsageError: A script that paints with")
 
