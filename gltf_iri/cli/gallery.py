@@ -73,11 +73,15 @@ def command(
         for entry in entries:
             if entry.error is not None:
                 note(entry.error)
-        click.echo(f"The page is {page} ({len(entries)} files).")
+        click.echo(f"The page is {page} ({_counted(len(entries))}).")
     unsound = [entry for entry in entries if not entry.is_sound]
     if unsound:
         broken = sum(entry.error is not None for entry in unsound)
-        raise AssetError(
-            f"{broken} of {len(entries)} files could not be drawn, "
-            f"and on {len(unsound) - broken} GLSL and Python disagree; see {page}"
-        )
+        differing = len(unsound) - broken
+        said = [f"{broken} could not be drawn"] * (broken > 0)
+        said += [f"on {differing} GLSL and Python disagree"] * (differing > 0)
+        raise AssetError(f"Of {_counted(len(entries))}, {' and '.join(said)}; see {page}")
+
+
+def _counted(files: int) -> str:
+    return f"{files} file" + "s" * (files != 1)
