@@ -40,26 +40,23 @@ vec2 anisotropic_dfg_terms(Surface s, View w) {
 }
 
 #ifdef HAS_IMAGE_LIGHT
-const int SLOPE_TAPS = 24;
-const float SECTION_WIDTH = 0.7;  // of the round lobe that stands for a section of the stretched one
-const float TAP_SHARE = 0.42;     // of the step between taps, below which lamps would show as rows of images
+const float TAPS_MIN = 8.0, TAPS_MAX = 24.0;
+const float TAPS_PER_STRETCH = 4.0;  // times α along the direction over α across it: more would only overlap more
+const float SECTION_WIDTH = 0.7;     // of the round lobe that stands for a section of the stretched one
+const float TAP_SHARE = 0.42;        // of the step between taps, below which bright light would show as rows of images
 
-// Radiance that the stretched lobe collects: facets at even shares of the slopes along the direction, each with a
-// round lobe as wide as the slopes across. Slopes x of facets of roughness 1 lie below x with probability
-// ½ + ½ x/√(1 + x²), and at x the slopes across are √(1 + x²) times as wide as at 0. A facet sends
+// Radiance of the environment without its lamps that the stretched lobe collects: facets at even shares of the slopes
+// along the direction, each with a round lobe as wide as the slopes across. Slopes x of facets of roughness 1 lie below
+// x with probability ½ + ½ x/√(1 + x²), and at x the slopes across are √(1 + x²) times as wide as at 0. A facet sends
 // 4 V (N·L)(V·H)/(N·H) of the light that it mirrors.
-vec3 anisotropic_radiance(Surface s, View w, vec3 mirrored, float spread_rad) {
-    vec3 even = environment_radiance(mirrored, s.perceptual_roughness, spread_rad);
-    if (w.tangent == vec3(0.0)) {
-        return even;
-    }
-    vec2 alphas = anisotropic_alphas(s.alpha_roughness, s.anisotropy_strength);
+vec3 stretched_rest_radiance(View w, vec2 alphas, vec3 mirrored, float spread_rad) {
     vec3 view = in_surface(w, w.v);
+    float taps = clamp(ceil(TAPS_PER_STRETCH * alphas.x / alphas.y), TAPS_MIN, TAPS_MAX);
     vec3 sum = vec3(0.0);
     float weight = 0.0;
-    for (int i = 0; i < SLOPE_TAPS; ++i) {
-        float place = (2.0 * float(i) + 1.0) / float(SLOPE_TAPS) - 1.0;  // x/√(1 + x²)
-        float widening = inversesqrt(1.0 - sq(place));                   // √(1 + x²)
+    for (float i = 0.5; i < taps; ++i) {
+        float place = 2.0 * i / taps - 1.0;             // x/√(1 + x²)
+        float widening = inversesqrt(1.0 - sq(place));  // √(1 + x²)
         float slope = alphas.x * place * widening;
         float n_dot_h = inversesqrt(1.0 + sq(slope));
         vec3 h = (w.n + slope * w.tangent) * n_dot_h;
@@ -68,16 +65,28 @@ vec3 anisotropic_radiance(Surface s, View w, vec3 mirrored, float spread_rad) {
         vec3 light = in_surface(w, l);
         if (v_dot_h > 0.0 && light.z > 0.0) {
             float across = alphas.y * widening * n_dot_h;
-            float step_rad = alphas.x * widening * sq(widening * n_dot_h) * 2.0 / float(SLOPE_TAPS);
+            float step_rad = alphas.x * widening * sq(widening * n_dot_h) * 2.0 / taps;
             float alpha = min(max(SECTION_WIDTH * across, TAP_SHARE * step_rad), 1.0);
             float visibility = v_smith_ggx_anisotropic(light.z, w.n_dot_v, light.x, light.y, view.x, view.y,
                                                        alphas.x, alphas.y);
             float share = visibility * light.z * v_dot_h / n_dot_h;
-            sum += share * environment_radiance(l, sqrt(alpha), spread_rad);
+            sum += share * rest_radiance(equirect_from_direction(l), sqrt(alpha), spread_rad);
             weight += share;
         }
     }
     // Past the silhouette no facet may mirror anything from above the surface.
-    return weight > 0.0 ? sum / weight : even;
+    return weight > 0.0 ? sum / weight
+                        : rest_radiance(equirect_from_direction(mirrored), sqrt(alphas.y), spread_rad);
+}
+
+// The whole: with the lamps, once, through the stretched facets themselves. `albedo` is A + B.
+vec3 anisotropic_radiance(Surface s, View w, vec3 mirrored, float albedo, float spread_rad) {
+    if (w.tangent == vec3(0.0)) {
+        return mirrored_radiance(mirrored, w.n, w.v, s.perceptual_roughness, albedo, spread_rad);
+    }
+    vec2 alphas = anisotropic_alphas(s.alpha_roughness, s.anisotropy_strength);
+    LampLobe lobe = LampLobe(mirrored, alphas.y, spread_rad, w.n, w.v, albedo, vec4(w.tangent, alphas.x));
+    return stretched_rest_radiance(w, alphas, mirrored, spread_rad) +
+           lamp_radiance(equirect_from_direction(mirrored), lobe);
 }
 #endif

@@ -41,8 +41,8 @@ vec3 rest_radiance(vec2 uv, float perceptual_roughness, float spread_rad) {
 // A lobe narrower than a texel shows lamps as the map has them, unless the pixel itself sees more than a texel.
 vec3 lamp_radiance(vec2 uv, LampLobe lobe) {
     float texel_rad = sharp_texel_rad();
-    float by_formula =
-        clamp(max((lobe.alpha - ALPHA_MIN) / (0.25 * texel_rad), lobe.spread_rad / texel_rad - 1.0), 0.0, 1.0);
+    float by_formula = clamp(
+        max((widest_alpha(lobe) - ALPHA_MIN) / (0.25 * texel_rad), lobe.spread_rad / texel_rad - 1.0), 0.0, 1.0);
     vec3 lamps = vec3(0.0);
     if (by_formula < 1.0) {
         float level = sharp_level(lobe.spread_rad, texel_rad);
@@ -58,18 +58,19 @@ vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spre
     vec2 uv = equirect_from_direction(direction);
     float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
     return rest_radiance(uv, perceptual_roughness, spread_rad) +
-           lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, vec3(0.0), vec3(0.0), 0.0));
+           lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, vec3(0.0), vec3(0.0), 0.0, vec4(0.0)));
 }
 
 // The same for a surface whose facets mirror `direction` to the viewer: lamps through the facets themselves, divided by
 // `albedo`, all that they send of a white sky, which the split sum multiplies by. Layers are read nearer the normal the
-// rougher it is: the far side of the lobe is masked or below the horizon. The cube fits the converged integral on balls.
+// rougher it is, for the far side of the lobe is masked or below the horizon.
+// Lagarde & de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", the specular lobe's dominant direction.
 vec3 mirrored_radiance(vec3 direction, vec3 n, vec3 v, float perceptual_roughness, float albedo, float spread_rad) {
     vec2 uv = equirect_from_direction(direction);
     float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
-    vec3 middle = normalize(mix(direction, n, sq(perceptual_roughness) * perceptual_roughness));
+    vec3 middle = normalize(mix(n, direction, (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha)));
     return rest_radiance(equirect_from_direction(middle), perceptual_roughness, spread_rad) +
-           lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, n, v, albedo));
+           lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, n, v, albedo, vec4(0.0)));
 }
 
 // E/π: a white environment gives 1.

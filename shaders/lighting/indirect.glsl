@@ -35,7 +35,8 @@ ImageLight image_light(Surface s, View w) {
     vec3 mirrored = reflect(-w.v, w.n);
     float spread_rad = spread_in_pixel(mirrored);
 #ifdef HAS_ANISOTROPY
-    image.radiance = anisotropic_radiance(s, w, mirrored, spread_rad) * s.occlusion;
+    image.radiance = anisotropic_radiance(s, w, mirrored, image.dfg.x + image.dfg.y, spread_rad) *
+                     s.occlusion;
 #else
     image.radiance = mirrored_radiance(mirrored, w.n, w.v, s.perceptual_roughness, image.dfg.x + image.dfg.y,
                                        spread_rad) *

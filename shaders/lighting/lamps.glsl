@@ -2,6 +2,9 @@
 
 #include "generated/constants.glsl"
 #include "optics/microfacet.glsl"
+#ifdef HAS_ANISOTROPY
+#include "optics/anisotropic_microfacet.glsl"
+#endif
 
 // A column a lamp: (direction, mean squared radius in rad²), (radiance · steradians).
 uniform sampler2D u_environment_lamps;
@@ -24,7 +27,10 @@ struct LampLobe {
     vec3 n;
     vec3 v;
     float albedo;      // A + B: ∫ D V (N·L) dω
+    vec4 stretch;      // direction in the surface, and α along it; 0: round
 };
+
+float widest_alpha(LampLobe lobe) { return max(lobe.alpha, lobe.stretch.w); }
 
 // The share of a small disc of light with the mean squared radius `size_squared`, per steradian: D V (N·L) / (A + B),
 // or D (N·L) / ∫ D (N·L) dω for N = V = `direction`.
@@ -37,8 +43,19 @@ float disc_lobe(LampLobe lobe, vec3 disc, float size_squared) {
         if (n_dot_l <= 0.0 || dot(halfway, halfway) == 0.0) {
             return 0.0;
         }
-        vec3 n_cross_h = cross(lobe.n, normalize(halfway));
+        vec3 h = normalize(halfway);
         float n_dot_v = clamp(dot(lobe.n, lobe.v), N_DOT_V_MIN, 1.0);
+#ifdef HAS_ANISOTROPY
+        if (lobe.stretch.w > 0.0) {
+            vec3 t = lobe.stretch.xyz, b = cross(lobe.n, t);
+            float widened_along = sqrt(sq(lobe.stretch.w) + 0.45 * size_squared);
+            return d_ggx_anisotropic(dot(t, h), dot(b, h), widened_along, widened) *
+                   v_smith_ggx_anisotropic(n_dot_l, n_dot_v, dot(t, disc), dot(b, disc), dot(t, lobe.v),
+                                           dot(b, lobe.v), lobe.stretch.w, lobe.alpha) *
+                   n_dot_l / lobe.albedo;
+        }
+#endif
+        vec3 n_cross_h = cross(lobe.n, h);
         return d_ggx(dot(n_cross_h, n_cross_h), widened) *
                v_smith_ggx_correlated(n_dot_l, n_dot_v, lobe.alpha) * n_dot_l / lobe.albedo;
     }
@@ -77,8 +94,8 @@ vec3 lamp_lobe_radiance(LampLobe lobe) {
             share /= 7.0;
             // The tail belongs to the lobe's share of the width alone: the pixel's own share has none.
             float narrow = 0.2 * lobe.spread_rad;
-            if (lobe.alpha < narrow) {
-                share = mix(disc_in_pixel(lobe.direction, place.xyz, size_squared), share, lobe.alpha / narrow);
+            if (widest_alpha(lobe) < narrow) {
+                share = mix(disc_in_pixel(lobe.direction, place.xyz, size_squared), share, widest_alpha(lobe) / narrow);
             }
         }
         sum += share * texelFetch(u_environment_lamps, ivec2(i, 1), 0).rgb;
