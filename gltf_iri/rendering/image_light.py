@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from gltf_iri.rendering.environment_light import EnvironmentLight, prepare_environment, prepare_sheen
 from gltf_iri.rendering.lobe_tables import compute_dfg_table, compute_sheen_table
@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 
 __all__ = ["ImageLightStore"]
 
+# A map of 8192 × 4096 takes 0.7 GB; a loop over many maps must not fill the memory.
+_MOST_KEPT: Final = 4
+
 
 @dataclass(slots=True)
 class _Prepared:
@@ -22,9 +25,14 @@ class _Prepared:
     light: EnvironmentLight
     sheen: moderngl.Texture | None = None
 
+    def release(self) -> None:
+        self.light.release()
+        if self.sheen is not None:
+            self.sheen.release()
+
 
 class ImageLightStore:
-    """The image lights of one context."""
+    """The image lights of one context; of the environments those used last."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
@@ -45,10 +53,12 @@ class ImageLightStore:
 
     def textures(self, environment: Environment, *, with_sheen: bool = False) -> dict[str, moderngl.Texture]:
         """Return the tables and what the samplers of shaders/lighting/environment.glsl read."""
-        prepared = self._prepared.get(id(environment))
+        prepared = self._prepared.pop(id(environment), None)
         if prepared is None:
+            if len(self._prepared) == _MOST_KEPT:
+                self._prepared.pop(next(iter(self._prepared))).release()
             prepared = _Prepared(environment, prepare_environment(self._context, environment))
-            self._prepared[id(environment)] = prepared
+        self._prepared[id(environment)] = prepared
         light = prepared.light
         textures = self.tables(with_sheen=with_sheen) | {
             "u_environment": light.sharp,
@@ -65,9 +75,7 @@ class ImageLightStore:
     def release(self) -> None:
         """Give everything back to OpenGL."""
         for prepared in self._prepared.values():
-            prepared.light.release()
-            if prepared.sheen is not None:
-                prepared.sheen.release()
+            prepared.release()
         self._prepared.clear()
         for table in filter(None, (self._dfg, self._sheen_albedo)):
             table.release()
