@@ -10,6 +10,7 @@ from typing import Any
 
 from gltf_iri.comparison.figures import delta_e_map, deviation_map, picture
 from gltf_iri.comparison.result import Comparison
+from gltf_iri.comparison.template import load_template
 from gltf_iri.errors import UsageError
 from gltf_iri.whole_files import write_whole
 
@@ -58,18 +59,9 @@ def report_html(comparison: Comparison, images: dict[str, bytes]) -> str:
 
     Names in assets may hold markup: everything is escaped, and the page runs no script and loads nothing.
     """
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    templates = Environment(
-        loader=FileSystemLoader(Path(__file__).parent / "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    templates.filters["figure"] = _figure
+    template = load_template(Path(__file__).parent / "templates" / "report.html.j2", _figure)
     uris = {name: "data:image/png;base64," + base64.b64encode(data).decode() for name, data in images.items()}
-    return templates.get_template("report.html.j2").render(
+    return template.render(
         report=comparison.to_json(),
         images=uris,
         whites={m.plan.method: m.method_white for m in comparison.materials if m.method_white is not None},

@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from gltf_iri.comparison.template import load_template
 from gltf_iri.errors import UsageError
 from gltf_iri.gallery.entry import Entry, Setup
 from gltf_iri.whole_files import write_whole
@@ -33,17 +34,8 @@ def gallery_html(entries: Sequence[Entry], setup: Setup) -> str:
 
     Names in assets may hold markup: everything is escaped, and the page runs no script and loads nothing.
     """
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    templates = Environment(
-        loader=FileSystemLoader(Path(__file__).parent / "templates"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    templates.filters["figure"] = _figure
-    return templates.get_template("gallery.html.j2").render(
+    template = load_template(Path(__file__).parent / "templates" / "gallery.html.j2", _figure)
+    return template.render(
         cards=[_card(entry) for entry in entries],
         size=setup.size,
         environment=setup.environment.name if setup.environment is not None else "none",

@@ -10,11 +10,11 @@ from functools import cache
 from typing import Final
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.optics.chebyshev import LogSeries
 from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN, alpha_ggx, v_smith_ggx_correlated
+from gltf_iri.optics.quadrature import gauss_unit
 
 __all__ = ["dfg_terms", "integrate_dfg"]
 
@@ -52,13 +52,13 @@ def integrate_dfg(n_dot_v: Float64, alpha: float) -> Float64:
     it is in θ on both sides of (π/2 − θ_v)/2, where φ_max leaves half a turn. tan θ = α tan x makes the
     facets' density D·cosθ·sinθ dθ = sin x cos x dx / π.
     """
-    nodes, weights = _gauss_unit(_SLOPES)
+    nodes, weights = gauss_unit(_SLOPES)
     # x runs as sin², which takes the square root out of φ_max at the ends of the panels.
     inside, inside_weights = (
         np.sin(0.5 * np.pi * nodes) ** 2,
         0.5 * np.pi * np.sin(np.pi * nodes) * weights,
     )
-    turns, turn_weights = _gauss_unit(_TURNS)
+    turns, turn_weights = gauss_unit(_TURNS)
     cos_v = n_dot_v[:, None]
     sin_v = np.sqrt(1.0 - cos_v * cos_v)
     theta_v = np.arccos(cos_v)
@@ -85,9 +85,3 @@ def integrate_dfg(n_dot_v: Float64, alpha: float) -> Float64:
 @cache
 def _series() -> LogSeries:
     return LogSeries.of(integrate_dfg, (N_DOT_V_MIN, 1.0), (ALPHA_MIN, 1.0), terms=_TERMS)
-
-
-def _gauss_unit(count: int) -> tuple[Float64, Float64]:
-    """Nodes and weights of ∫₀¹ f."""
-    nodes, weights = leggauss(count)
-    return 0.5 + 0.5 * nodes, 0.5 * weights

@@ -10,11 +10,11 @@ from functools import cache
 from typing import Final
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.optics.chebyshev import LogSeries
 from gltf_iri.optics.microfacet import N_DOT_V_MIN
+from gltf_iri.optics.quadrature import gauss_unit
 
 __all__ = [
     "SHEEN_ALPHA_MIN",
@@ -129,13 +129,12 @@ def integrate_sheen(n_dot_v: Float64, alpha: float) -> Float64:
 
     The fit's Λ bends at cosθ = ½, where one panel of N·L ends and the other begins.
     """
-    nodes, weights = leggauss(_COSINES)
-    t, t_weights = 0.5 + 0.5 * nodes, 0.5 * weights
-    turns, turn_weights = leggauss(_TURNS)
-    cos_phi = np.cos(np.pi * (0.5 + 0.5 * turns))
+    t, t_weights = gauss_unit(_COSINES)
+    turns, turn_weights = gauss_unit(_TURNS)
+    cos_phi = np.cos(np.pi * turns)
     grazing = 0.5 * t**_CLUSTER
     n_dot_l = np.concatenate([grazing, 1.0 - grazing])[:, None]
-    share = np.tile(0.5 * _CLUSTER * t ** (_CLUSTER - 1) * t_weights, 2)[:, None] * np.pi * turn_weights
+    share = np.tile(_CLUSTER * t ** (_CLUSTER - 1) * t_weights, 2)[:, None] * np.pi * turn_weights
     view = n_dot_v[:, None, None]
     v_dot_l = np.sqrt((1.0 - view**2) * (1.0 - n_dot_l**2)) * cos_phi + view * n_dot_l
     n_dot_h = (view + n_dot_l) / np.sqrt(2.0 + 2.0 * v_dot_l)

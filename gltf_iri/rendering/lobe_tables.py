@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
-from numpy.polynomial.legendre import leggauss
 
+from gltf_iri.optics.quadrature import gauss_unit
 from gltf_iri.optics.sheen import SHEEN_ALPHA_MIN, sheen_albedo
 from gltf_iri.rendering.fullscreen import compute_texture
 
@@ -29,7 +29,10 @@ def compute_dfg_table(context: moderngl.Context) -> moderngl.Texture:
 
     Where texels lie is said in shaders/lighting/dfg.glsl.
     """
-    points = {"u_slopes": _gauss_unit(_DFG_SLOPES), "u_turns": _gauss_unit(_DFG_TURNS)}
+    points = {
+        "u_slopes": np.column_stack(gauss_unit(_DFG_SLOPES)).tolist(),
+        "u_turns": np.column_stack(gauss_unit(_DFG_TURNS)).tolist(),
+    }
     table = compute_texture(context, "pass/dfg.frag", _DFG_SIZE, 2, {"u_size": _DFG_SIZE, **points}, {})
     return _filtered(context, table)
 
@@ -45,14 +48,6 @@ def compute_sheen_table(context: moderngl.Context) -> moderngl.Texture:
     return _filtered(
         context, context.texture(_SHEEN_SIZE, 1, albedo.astype(np.float32).tobytes(), dtype="f4")
     )
-
-
-def _gauss_unit(count: int) -> list[tuple[float, float]]:
-    """Return points and weights of ∫₀¹ f."""
-    nodes, weights = leggauss(count)
-    return [
-        (0.5 + 0.5 * float(node), 0.5 * float(weight)) for node, weight in zip(nodes, weights, strict=True)
-    ]
 
 
 def _filtered(context: moderngl.Context, table: moderngl.Texture) -> moderngl.Texture:
