@@ -61,3 +61,14 @@ def test_no_mirror_sends_more_than_arrives() -> None:
 
 def test_cosines_below_the_guard_read_as_the_guard() -> None:
     np.testing.assert_array_equal(dfg_terms(0.0, 0.5), dfg_terms(N_DOT_V_MIN, 0.5))
+
+
+def test_points_that_repeat_have_the_terms_that_they_have_alone() -> None:
+    g = np.random.default_rng(12)
+    n_dot_v, roughness = g.uniform(size=(2, 50))
+    n_dot_v[1::2] = n_dot_v[::2]  # neighbours that differ in roughness alone
+    times = g.integers(1, 9, 50)
+    alone = np.stack([dfg_terms(*point) for point in zip(n_dot_v, roughness, strict=True)], axis=1)
+    repeated = np.array(dfg_terms(np.repeat(n_dot_v, times), np.repeat(roughness, times)))
+    np.testing.assert_allclose(repeated, np.repeat(alone, times, axis=1), rtol=0, atol=1e-13)
+    assert np.shape(dfg_terms(np.zeros(0), 0.5)) == (2, 0)
