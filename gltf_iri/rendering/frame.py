@@ -30,10 +30,7 @@ INPUT_TARGETS: tuple[tuple[str, str], ...] = (
 # A second set, drawn only where a plan calls for transmission, clearcoat, sheen or anisotropy. Image light
 # with occlusion, as above; "" pads.
 LAYER_INPUT_TARGETS: tuple[tuple[str, str], ...] = (
-    (
-        "transmitted_radiance",
-        "transmission",
-    ),  # along the refracted direction, what the inside absorbs taken off
+    ("transmitted_radiance", "transmission"),  # along the refracted direction, after absorption inside
     ("clearcoat_normal", "clearcoat"),  # unit, turned towards the viewer
     ("clearcoat_radiance", "clearcoat_roughness"),  # prefiltered, along the coat's mirror direction
     ("sheen_color", "sheen_roughness"),
