@@ -14,9 +14,11 @@ from numpy.testing import assert_allclose
 
 from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.material.clearcoat import Clearcoat
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
+from gltf_iri.material.sheen import Sheen
 from gltf_iri.material.specular import Specular
 from gltf_iri.material.transmission import Transmission
 from gltf_iri.material.volume import Volume
@@ -103,3 +105,29 @@ def test_a_body_in_a_body_absorbs_instead_of_the_outer_one(
     materials = [glass((0.5, 1.0, 0.8), specular=clear), glass((1.0, 0.3, 0.7), specular=clear)]
     traced = look(bodies, materials, 1.0, 2)
     assert_allclose(traced.colour[0], [0.5**2, 0.3, 0.8**2 * 0.7], rtol=1e-4)
+
+
+LAYERS = {
+    "bare": {},
+    "fibres": {"sheen": Sheen((0.9, 0.6, 0.3), roughness_factor=0.5)},
+    "coat": {"clearcoat": Clearcoat(factor=1.0, roughness_factor=0.1)},
+    "fibres under a coat": {
+        "sheen": Sheen((0.9, 0.6, 0.3), roughness_factor=0.5),
+        "clearcoat": Clearcoat(factor=1.0, roughness_factor=0.1),
+    },
+}
+
+
+@pytest.mark.parametrize("layers", LAYERS.values(), ids=LAYERS)
+def test_glass_that_lets_next_to_nothing_through_is_paint(
+    look: Callable[..., Traced], props: SimpleNamespace, layers: dict[str, Any]
+) -> None:
+    """Paths gather image light on its base and fibres, and mirror the rest: together what paint sends."""
+    pbr = MetallicRoughness((0.8, 0.5, 0.2, 1.0), metallic_factor=0.2, roughness_factor=0.15)
+    paint = Material(pbr=pbr, ior=Ior(1.7), **layers)
+    dark = replace(paint, transmission=Transmission(1e-6))
+    opaque, glassy = (look(slab(props, 0.0, -0.5), [made], 0.35, 8192) for made in (paint, dark))
+    slack = 4 * np.hypot(opaque.standard_error, glassy.standard_error)
+    # Facets that scatter twice add to glass alone.
+    assert np.all(np.abs(opaque.colour - glassy.colour) < slack + 2e-3)
+    assert slack.max() < 0.02
