@@ -87,3 +87,13 @@ def test_light_leaves_a_ball_bent_twice_and_a_plate_as_it_came(stage, props, slo
     world[0, [0, 2]], world[2, [0, 2]] = (np.cos(angle), np.sin(angle)), (-np.sin(angle), np.cos(angle))
     plate = stage.draw(props.quad(world=world), clear(0.4), **view).rgba
     assert 2.0 * plate[64, 64, :3] - 1.0 == pytest.approx([0.0, 0.0, -1.0], abs=0.01)
+
+
+def test_light_that_a_body_bends_sees_the_sky_and_not_the_backdrop(stage, props, slopes):
+    """A backdrop is what is shown straight behind the scene: through a pane it is seen, bent it is not."""
+    before_paper = replace(slopes, backdrop=(0.25, 0.75, 0.5))
+    view = {"environment": before_paper, "samples": 0}
+    pane = stage.draw(props.quad(), replace(clear(0.4), volume=None), **view).rgba[32, 32, :3]
+    assert pane == pytest.approx(before_paper.backdrop, abs=1e-6)
+    ball = stage.draw(props.sphere(), clear(2.0), **view).rgba[32, 32, :3]
+    assert 2.0 * ball - 1.0 == pytest.approx([0.0, 0.0, -1.0], abs=0.03)
