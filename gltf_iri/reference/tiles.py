@@ -22,9 +22,13 @@ __all__ = ["count_tiles", "paint_tiles", "tile_rows"]
 # Large enough that numpy does the work, small enough for a progress bar that moves.
 _PIXELS_A_TILE: Final = 4096
 
+# Far more than handing over a finished tile takes.
+_HAND_OVER_S: Final = 1.0
+
 # What this process paints and with what; a worker makes its painter when its first tile comes.
 _job: Job | None = None
 _painter: Painter | None = None
+_is_painting = False
 
 
 def count_tiles(size: tuple[int, int]) -> int:
@@ -127,21 +131,25 @@ def _interrupts_held() -> Iterator[None]:
 def _receive(job: Job) -> None:
     global _job
     _job = job
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    if sys.platform != "win32":  # where a process that is ended cannot have a say
+        signal.signal(signal.SIGTERM, _leave)
 
 
-def _end_with_parent() -> None:
-    """End this process when the one that started it is gone: a killed one leaves it waiting for ever."""
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
+def _leave(number: int, frame: object) -> None:
+    """End this worker, but not while it hands a tile over: the reader would wait for the rest for ever."""
+    if _is_painting:
         os._exit(1)
+    signal.setitimer(signal.ITIMER_REAL, _HAND_OVER_S)  # SIGALRM ends it
 
 
 def _paint(index: int, rows: tuple[int, int]) -> Tile:
-    global _painter
-    if _painter is None:
-        if _job is None:
-            raise UsageError("Tiles are painted by `paint_tiles` only.")
-        _painter = Painter(_job)
-    return _painter.paint(index, rows)
+    global _painter, _is_painting
+    if _job is None:
+        raise UsageError("Tiles are painted by `paint_tiles` only.")
+    _is_painting = True
+    try:
+        if _painter is None:
+            _painter = Painter(_job)
+        return _painter.paint(index, rows)
+    finally:
+        _is_painting = False
