@@ -133,6 +133,15 @@ def _receive(job: Job) -> None:
     _job = job
     if sys.platform != "win32":  # where a process that is ended cannot have a say
         signal.signal(signal.SIGTERM, _leave)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    """End this process when the one that started it is gone: a killed one leaves it waiting for ever."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
 
 
 def _leave(number: int, frame: object) -> None:
