@@ -96,6 +96,17 @@ def test_a_plate_mirrors_alike_from_both_sides_at_one_outside_angle(
     assert traced.standard_error.max() < 5e-3
 
 
+def test_a_coat_mirrors_on_its_outside_alone(look: Callable[..., Traced], props: SimpleNamespace) -> None:
+    """Over a body that neither bends nor mirrors: F of the room and 1 − F of what is left of it below."""
+    colour, cosine = (0.9, 0.5, 0.2), 0.4
+    coated = glass(colour, ior=Ior(1.0), specular=Specular(factor=0.0), clearcoat=Clearcoat(factor=1.0))
+    traced = look(slab(props, 0.0, -0.5), [coated], cosine, 16384)
+    coat = 0.04 + 0.96 * (1.0 - cosine) ** 5
+    expected = coat + (1.0 - coat) * np.array(colour) ** (0.5 / cosine)
+    assert np.all(np.abs(traced.colour[0] - expected) < 4 * traced.standard_error[0] + 1e-3)
+    assert traced.standard_error.max() < 3e-3
+
+
 def test_a_body_in_a_body_absorbs_instead_of_the_outer_one(
     look: Callable[..., Traced], props: SimpleNamespace
 ) -> None:
