@@ -10,11 +10,11 @@ import threading
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import contextmanager
 from multiprocessing.context import SpawnContext
 from typing import Final
 
 from gltf_iri.errors import MissingCapabilityError, UsageError
+from gltf_iri.interrupts import interrupts_held
 from gltf_iri.reference.paint import Job, Painter, Tile
 
 __all__ = ["count_tiles", "paint_tiles", "tile_rows"]
@@ -66,7 +66,7 @@ def paint_tiles(job: Job, processes: int | None) -> Iterator[tuple[int, Tile]]:
     others = set(multiprocessing.active_children())
     with ProcessPoolExecutor(workers, context, initializer=_receive, initargs=(job,)) as pool:
         try:
-            with _interrupts_held():
+            with interrupts_held():
                 pending = {pool.submit(_paint, index, rows): index for index, rows in tiles}
             for done in as_completed(pending):
                 yield pending[done], done.result()
@@ -87,7 +87,7 @@ def _check_that_processes_start(context: SpawnContext) -> None:
     """Start one without a job: handing a large one to a process that ends early would block for ever."""
     try:
         with ProcessPoolExecutor(1, context) as pool:
-            with _interrupts_held():
+            with interrupts_held():
                 started = pool.submit(os.getpid)
             started.result()
     except OSError as error:
@@ -99,33 +99,6 @@ def _check_that_processes_start(context: SpawnContext) -> None:
             'A script that paints with several processes calls this under `if __name__ == "__main__":`, for '
             "each of them reads it again; or ask for one process."
         ) from error
-
-
-@contextmanager
-def _interrupts_held() -> Iterator[None]:
-    """Keep Ctrl-C waiting while the block runs, and for ever from the processes that it starts.
-
-    A terminal sends it to all of them: those would each print a traceback where the first says one sentence,
-    and one that is only half started would outlive it.
-    """
-    if sys.platform == "win32":  # where there are no masks
-        yield
-        return
-    # The mask is for the processes, which inherit it. Here another thread takes the signal all the same.
-    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    handler = signal.getsignal(signal.SIGINT)
-    holds = callable(handler) and threading.current_thread() is threading.main_thread()
-    came: list[int] = []
-    if holds:
-        signal.signal(signal.SIGINT, lambda number, _: came.append(number))
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-        if holds:
-            signal.signal(signal.SIGINT, handler)
-        if came:
-            signal.raise_signal(signal.SIGINT)
 
 
 def _receive(job: Job) -> None:

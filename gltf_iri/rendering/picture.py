@@ -183,7 +183,10 @@ def _write_exr(name: str, rgba: Float32, exposure: float, tonemap: str) -> None:
     scaled[..., :3] *= np.float32(2.0**exposure)
     header = {"compression": OpenEXR.ZIP_COMPRESSION, "type": OpenEXR.scanlineimage}
     with OpenEXR.File(header, {"RGBA": np.ascontiguousarray(scaled)}) as file:
-        file.write(name)
+        try:
+            file.write(name)
+        except RuntimeError as error:  # how OpenEXR tells of a full disk
+            raise OSError(str(error)) from error
 
 
 _WRITERS: Final[Mapping[str, Callable[[str, Float32, float, str], None]]] = MappingProxyType(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.errors import MissingCapabilityError
 from gltf_iri.planning.decide import complete_plans
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
@@ -91,6 +92,8 @@ class Renderer:
         Raises UsageError for a size out of range and a method without GLSL, MissingCapabilityError where
         OpenGL takes fewer samples or smaller textures than are needed.
         """
+        import moderngl
+
         if with_inputs:
             samples = 0
         check_size(self.context, size, samples)
@@ -160,6 +163,10 @@ class Renderer:
                 inputs,
                 times.milliseconds,
             )
+        except moderngl.Error as error:  # what a driver without memory says
+            raise MissingCapabilityError(
+                f"This OpenGL gave up, most likely for want of memory ({error}); choose a smaller picture or map."
+            ) from error
         finally:
             if self._capturing is not None:
                 self._capturing.end()

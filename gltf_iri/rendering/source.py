@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from gltf_iri.errors import GltfIriError
+from gltf_iri.interrupts import interrupts_held
 from gltf_iri.rendering.conditions import Conditions, is_directive
 from gltf_iri.rendering.switches import SWITCHES
 from gltf_iri.resources import shader_root
@@ -146,11 +147,12 @@ def build_program(
     import moderngl
 
     try:
-        return context.program(
-            vertex_shader=vertex.text,
-            fragment_shader=None if fragment is None else fragment.text,
-            varyings=varyings,
-        )
+        with interrupts_held():  # moderngl ends the process where Ctrl-C meets it here
+            return context.program(
+                vertex_shader=vertex.text,
+                fragment_shader=None if fragment is None else fragment.text,
+                varyings=varyings,
+            )
     except moderngl.Error as error:
         told = translate_log(str(error), vertex, fragment)
         raise ShaderError(f"The driver refuses a shader:\n{told}") from error

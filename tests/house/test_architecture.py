@@ -20,7 +20,7 @@ ROAD = (
     *("scene", "material", "asset"),
 )
 # Open to every folder; these may import each other and nothing of the road.
-GROUND = {"optics", "colour", "errors", "tolerances", "resources", "whole_files"}
+GROUND = {"optics", "colour", "errors", "interrupts", "tolerances", "resources", "whole_files"}
 # Beside the road: a writer of assets that reads none.
 SAMPLES = "samples"
 # They see everything, because they start or gather it.

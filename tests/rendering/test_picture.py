@@ -189,3 +189,15 @@ def test_a_side_that_webp_cannot_count_is_refused(tmp_path):
     with pytest.raises(UsageError, match="16383"):
         write_picture(tmp_path / "a.webp", np.zeros((1, 16384, 4), np.float32))
     assert list(tmp_path.iterdir()) == []
+
+
+def test_an_exr_that_does_not_fit_on_the_disk_is_told(tmp_path, monkeypatch):
+    import OpenEXR
+
+    def full(*_):
+        raise RuntimeError("No space left on device.")
+
+    monkeypatch.setattr(OpenEXR.File, "write", full)
+    with pytest.raises(UsageError, match="cannot be written: No space left"):
+        write_picture(tmp_path / "out.exr", np.zeros((2, 2, 4), np.float32), 0.0, "none")
+    assert not list(tmp_path.iterdir())
