@@ -165,7 +165,7 @@ class Renderer:
             )
         except moderngl.Error as error:  # what a driver without memory says
             raise MissingCapabilityError(
-                f"This OpenGL gave up, most likely for want of memory ({error}); choose a smaller picture or map."
+                f"This OpenGL gave up, most likely for want of memory ({error}): choose a smaller picture."
             ) from error
         finally:
             if self._capturing is not None:
