@@ -70,9 +70,9 @@ def rgb_mix(reflectance: ArrayLike) -> Layer:
 def transmitted_share(reflectance: ArrayLike) -> Float64:
     """Share T (..., 3) of the light that passes a surface of reflectance R (..., 3): clamp(1 − R, 0, 1).
 
-    What is reflected is not transmitted, colour by colour, so R + T ≤ 1 in every channel; the diffuse base
-    keeps `rgb_mix`'s one weight for all. A film's text may give R outside [0, 1], where
-    1 − R would gain energy.
+    What is reflected is not transmitted, colour by colour: R + T = 1 in every channel where R lies in [0, 1].
+    The diffuse base keeps `rgb_mix`'s one weight for all. `khr` may give R beyond 1, where 1 − R would take
+    light away from behind, and a true colour outside Rec.709 has a channel below 0, where it would add some.
     """
     return np.clip(1.0 - np.asarray(reflectance, np.float64), 0.0, 1.0)
 

@@ -22,7 +22,7 @@ class Verdict:
 
     count: int
     least_p: float  # the most surprising sample's chance, if both sides had the same mean
-    risk_each: float  # α₁ = 1 − (1 − α)^(1/n), Šidák 1967
+    risk_each: float  # α₁ = 1 − (1 − α)^(1/n), Šidák 1967, n of all scenes
     rms_z: float  # 1 where the errors are as large as they are said to be
     largest_z: float
 
@@ -39,12 +39,12 @@ class Verdict:
 
 
 def compare_means(
-    batches: Float64, expected: Float64, expected_error: Float64, expected_freedom: int
+    batches: Float64, expected: Float64, expected_error: Float64, expected_freedom: int, *, scenes: int = 1
 ) -> Verdict:
     """Compare the means of independent `batches` (b, ...) with `expected` (...) and its standard error (...).
 
     Two-sided, each sample by Student's distribution with the degrees of freedom of Satterthwaite 1946 and
-    Welch 1947: (a² + b²)² / (a⁴/ν_a + b⁴/ν_b).
+    Welch 1947: (a² + b²)² / (a⁴/ν_a + b⁴/ν_b). `scenes` of them, judged alike, are one family.
     """
     count = len(batches)
     variance, expected_variance = batches.var(axis=0, ddof=1) / count, expected_error**2
@@ -55,7 +55,7 @@ def compare_means(
     return Verdict(
         count=z.size,
         least_p=min(chances),
-        risk_each=1.0 - (1.0 - FAMILY_RISK) ** (1.0 / z.size),
+        risk_each=1.0 - (1.0 - FAMILY_RISK) ** (1.0 / (scenes * z.size)),
         rms_z=float(np.sqrt(np.mean(z**2))),
         largest_z=float(z.max()),
     )

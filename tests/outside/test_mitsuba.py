@@ -1,7 +1,7 @@
 """Mitsuba 3 as an outside opinion: its spectral path tracer sees films in the colours of the CPU reference.
 
 Mitsuba draws wavelengths, light and lobes at random, so the verdict is statistical: over all matched pixels
-and channels of a scene together, agreement is rejected wrongly for 1 % of all seeds. The seeds are fixed. The
+and channels of all scenes together, agreement is rejected wrongly for 1 % of all seeds. Seeds are fixed. The
 same pictures must tell a film that is 2 % thicker.
 """
 
@@ -81,6 +81,7 @@ def test_mitsuba_sees_the_film_in_the_same_colours_and_tells_a_film_2_percent_th
             frame.rgba[matched][:, :3],
             frame.standard_error[matched],
             scene.reference_freedom,
+            scenes=len(SCENES),
         )
         for frame in (ours, thicker)
     )
