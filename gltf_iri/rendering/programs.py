@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from gltf_iri.errors import MissingCapabilityError, UsageError
 from gltf_iri.planning.method import METHODS, find_method
@@ -11,7 +11,7 @@ from gltf_iri.rendering.source import ShaderSource, assemble, build_program
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["ProgramStore", "check_method", "surface_sources"]
+__all__ = ["KEPT_PROGRAMS", "ProgramStore", "check_method", "surface_sources"]
 
 
 def surface_sources(defines: tuple[str, ...]) -> tuple[ShaderSource, ShaderSource]:
@@ -24,6 +24,10 @@ def check_method(name: str | None) -> None:
     if name is not None and find_method(name).glsl_function is None:
         drawable = ", ".join(name for name, method in METHODS.items() if method.glsl_function)
         raise UsageError(f"The method '{name}' cannot be drawn; methods that can are: {drawable}.")
+
+
+# On llvmpipe a program holds some 10 MB; a picture uses a handful, and many files in a row ever new ones.
+KEPT_PROGRAMS: Final = 32
 
 
 class ProgramStore:
@@ -49,7 +53,13 @@ class ProgramStore:
                     f"this OpenGL takes {limit}."
                 )
             self._programs[defines] = build_program(self._context, vertex, fragment)
+        self._programs[defines] = self._programs.pop(defines)  # the last in order is the last used
         return self._programs[defines]
+
+    def trim(self) -> None:
+        """Give all but the `KEPT_PROGRAMS` used last back to OpenGL; between pictures only."""
+        while len(self._programs) > KEPT_PROGRAMS:
+            self._programs.pop(next(iter(self._programs))).release()
 
     def release(self) -> None:
         """Give everything back to OpenGL."""

@@ -175,6 +175,7 @@ class Renderer:
                 target.release()
             textures.release()
             geometry.release()
+            self._programs.trim()
 
     def release(self) -> None:
         """Give everything back to OpenGL; the context stays the caller's."""
