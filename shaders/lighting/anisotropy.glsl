@@ -48,10 +48,12 @@ const float TAP_SHARE = 0.42;        // of the step between taps, below which br
 // Radiance of the environment without its lamps that the stretched lobe collects: facets at even shares of the slopes
 // along the direction, each with a round lobe as wide as the slopes across. Slopes x of facets of roughness 1 lie below
 // x with probability ½ + ½ x/√(1 + x²), and at x the slopes across are √(1 + x²) times as wide as at 0. A facet sends
-// 4 V (N·L)(V·H)/(N·H) of the light that it mirrors.
+// 4 V (N·L)(V·H)/(N·H) of the light that it mirrors. As with round facets what is collected lies nearer the normal, but
+// only across the direction: along it, the sum over facets already leaves out what is masked.
 vec3 stretched_rest_radiance(View w, vec2 alphas, vec3 mirrored, float spread_rad) {
     vec3 view = in_surface(w, w.v);
     float taps = clamp(ceil(TAPS_PER_STRETCH * alphas.x / alphas.y), TAPS_MIN, TAPS_MAX);
+    float share_across = mirror_share(alphas.y);
     vec3 sum = vec3(0.0);
     float weight = 0.0;
     for (float i = 0.5; i < taps; ++i) {
@@ -70,7 +72,8 @@ vec3 stretched_rest_radiance(View w, vec2 alphas, vec3 mirrored, float spread_ra
             float visibility = v_smith_ggx_anisotropic(light.z, w.n_dot_v, light.x, light.y, view.x, view.y,
                                                        alphas.x, alphas.y);
             float share = visibility * light.z * v_dot_h / n_dot_h;
-            sum += share * rest_radiance(equirect_from_direction(l), sqrt(alpha), spread_rad);
+            vec3 middle = normalize(mix(w.n + light.x * w.tangent, l, share_across));
+            sum += share * rest_radiance(equirect_from_direction(middle), sqrt(alpha), spread_rad);
             weight += share;
         }
     }

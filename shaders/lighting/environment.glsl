@@ -61,14 +61,19 @@ vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spre
            lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, vec3(0.0), vec3(0.0), 0.0, vec4(0.0)));
 }
 
-// The same for a surface whose facets mirror `direction` to the viewer: lamps through the facets themselves, divided by
-// `albedo`, all that they send of a white sky, which the split sum multiplies by. Layers are read nearer the normal the
-// rougher it is, for the far side of the lobe is masked or below the horizon.
+// How far from the normal (0) towards the mirror direction (1) the light lies that a lobe collects: the far side of a
+// rough one is masked or below the horizon.
+// (1 − α)(√(1 − α) + α)
 // Lagarde & de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", the specular lobe's dominant direction.
+float mirror_share(float alpha) { return (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha); }
+
+// As environment_radiance, for a surface whose facets mirror `direction` to the viewer: lamps through the facets
+// themselves, divided by `albedo`, all that they send of a white sky, which the split sum multiplies by. Layers are
+// read nearer the normal the rougher it is.
 vec3 mirrored_radiance(vec3 direction, vec3 n, vec3 v, float perceptual_roughness, float albedo, float spread_rad) {
     vec2 uv = equirect_from_direction(direction);
     float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
-    vec3 middle = normalize(mix(n, direction, (1.0 - alpha) * (sqrt(1.0 - alpha) + alpha)));
+    vec3 middle = normalize(mix(n, direction, mirror_share(alpha)));
     return rest_radiance(equirect_from_direction(middle), perceptual_roughness, spread_rad) +
            lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, n, v, albedo, vec4(0.0)));
 }
