@@ -47,7 +47,7 @@ def hdr_with_a_patch(path, direction):
 
 
 def sent_by_facets(normal, outgoing, roughness, direction):
-    """What rough metal sends from the patch: ∫ D V (N·L) dω / (A + B), brightest beside the mirror direction."""
+    """What rough metal sends from the patch, ∫ D V (N·L) dω / (A + B): most beside the mirror direction."""
     towards, solid_angle, lit = texels(direction)
     n_dot_v = np.clip(np.sum(normal * outgoing, axis=1), 1e-4, 1.0)
     total = np.zeros(len(normal))
