@@ -248,3 +248,28 @@ def test_an_interrupted_reference_is_one_sentence_and_leaves_nothing(triangle, t
                 os.killpg(painting.pid, signal.SIGKILL)
     assert (painting.returncode, *said) == (130, "", "gltf-iri: Interrupted.\n")
     assert list(out.iterdir()) == []
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the signals are POSIX")
+@pytest.mark.parametrize("ending", ["SIGTERM", "SIGHUP"])
+def test_a_render_that_is_told_to_end_takes_its_half_written_file_away(triangle, tmp_path, ending):
+    out = tmp_path / "pictures"
+    out.mkdir()
+    call = ["render", str(triangle), "-o", str(out / "turn.webp"), "--size", "640x480", "--orbit", "360"]
+    with subprocess.Popen(
+        [sys.executable, "-m", "gltf_iri", *call, "--env", "none"],
+        cwd=Path(__file__).parents[2],
+        stderr=subprocess.PIPE,
+        text=True,
+    ) as drawing:
+        try:
+            begun = time.monotonic()
+            while not list(out.iterdir()) and time.monotonic() - begun < 60.0:
+                time.sleep(0.05)
+            assert [path.name[0] for path in out.iterdir()] == ["."]
+            drawing.send_signal(getattr(signal, ending))
+            said = drawing.communicate(timeout=30)[1]
+        finally:
+            drawing.kill()
+    assert (drawing.returncode, said) == (128 + getattr(signal, ending), "")
+    assert list(out.iterdir()) == []

@@ -2,8 +2,8 @@
 
 `python tests/hostile/fuzz.py MINUTES FOLDER… [--seed N] [--keep FOLDER]` reads every .gltf and .glb below the
 folders, with the files beside it. Every broken file must end in one sentence that says where, or be accepted;
-some of the accepted ones are drawn. A traceback, more than three seconds of work, or a process that keeps growing is
-a finding: its file is kept, and the exit code is 1. Linux only: sizes come from /proc.
+some of the accepted ones are drawn. A traceback, more than three seconds of work, or a process that keeps
+growing is a finding: its file is kept, and the exit code is 1. Linux only: sizes come from /proc.
 """
 
 from __future__ import annotations

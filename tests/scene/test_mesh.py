@@ -118,6 +118,20 @@ def test_quantised_positions_are_read_as_numbers(asset):
     np.testing.assert_array_equal(_only(asset).positions, 100 * np.array(SQUARE)[:3])
 
 
+def test_quantized_normals_tangents_and_coordinates_are_what_they_stand_for(asset):
+    asset.json["extensionsUsed"] = asset.json["extensionsRequired"] = ["KHR_mesh_quantization"]
+    primitive = asset.primitive(SQUARE[:3], [0, 1, 2])
+    primitive["attributes"] |= {
+        "NORMAL": asset.accessor([[0, 0, 127]] * 3, "i1", normalized=True),
+        "TANGENT": asset.accessor([[127, 0, 0, -127]] * 3, "i1", normalized=True),
+        "TEXCOORD_0": asset.accessor([[0, 0], [255, 0], [0, 51]], "u1", normalized=True),
+    }
+    read = _only(asset)
+    np.testing.assert_array_equal(read.normals, [[0, 0, 1]] * 3)
+    np.testing.assert_array_equal(read.tangents, [[1, 0, 0, -1]] * 3)
+    np.testing.assert_allclose(read.uvs[0], [[0, 0], [1, 0], [0, 0.2]], rtol=1e-7)
+
+
 def test_two_uv_sets_are_kept_and_a_missing_one_is_noted(asset):
     first, second = asset.accessor([[0, 0]] * 3), asset.accessor([[1, 1]] * 3)
     asset.json["images"] = [{"uri": "absent.png"}]
