@@ -18,7 +18,7 @@ float clearcoat_reflectance(Surface s, vec2 dfg) { return s.clearcoat * (CLEARCO
 #ifdef HAS_PUNCTUAL_LIGHTS
 vec3 punctual_clearcoat(Surface s, View w) {
     vec3 sent = vec3(0.0);
-    float alpha = max(sq(s.clearcoat_roughness), ALPHA_MIN);
+    float alpha = alpha_ggx(s.clearcoat_roughness);
     for (int i = 0; i < u_light_count; ++i) {
         Illuminant light = punctual_light(i, v_position);
         float n_dot_l = clamp(dot(w.coat_n, light.direction), 0.0, 1.0);

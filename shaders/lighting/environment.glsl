@@ -6,6 +6,7 @@
 #include "lighting/dfg.glsl"
 #include "lighting/equirect.glsl"
 #include "lighting/lamps.glsl"
+#include "optics/microfacet.glsl"
 #ifdef HAS_SHEEN
 #include "generated/layer_constants.glsl"
 #endif
@@ -56,7 +57,7 @@ vec3 lamp_radiance(vec2 uv, LampLobe lobe) {
 // tails, and a wider one would carry bright light to where no direction in the pixel meets it.
 vec3 environment_radiance(vec3 direction, float perceptual_roughness, float spread_rad) {
     vec2 uv = equirect_from_direction(direction);
-    float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
+    float alpha = alpha_ggx(perceptual_roughness);
     return rest_radiance(uv, perceptual_roughness, spread_rad) +
            lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, vec3(0.0), vec3(0.0), 0.0, vec4(0.0)));
 }
@@ -72,7 +73,7 @@ float mirror_share(float alpha) { return (1.0 - alpha) * (sqrt(1.0 - alpha) + al
 // read nearer the normal the rougher it is.
 vec3 mirrored_radiance(vec3 direction, vec3 n, vec3 v, float perceptual_roughness, float albedo, float spread_rad) {
     vec2 uv = equirect_from_direction(direction);
-    float alpha = max(sq(perceptual_roughness), ALPHA_MIN);
+    float alpha = alpha_ggx(perceptual_roughness);
     vec3 middle = normalize(mix(n, direction, mirror_share(alpha)));
     return rest_radiance(equirect_from_direction(middle), perceptual_roughness, spread_rad) +
            lamp_radiance(uv, LampLobe(direction, alpha, spread_rad, n, v, albedo, vec4(0.0)));
