@@ -13,6 +13,7 @@ from __future__ import annotations
 import typing
 
 if typing.TYPE_CHECKING:
+    from collections.abc import Mapping
     from os import PathLike
 
     from numpy.typing import ArrayLike
@@ -54,42 +55,70 @@ def plan(material: Material, *, index: int = -1, method: str | None = None) -> M
 
 
 def evaluate(
-    method: str = "khr-guarded",
+    method: str | None = None,
     *,
     cos_theta_1: ArrayLike,
-    thickness_nm: ArrayLike,
+    thickness_nm: ArrayLike | None = None,
     film_ior: ArrayLike = 1.3,
     base_f0: ArrayLike | None = None,
     base_ior: ArrayLike | None = None,
     base_nk: ArrayLike | None = None,
     outside_ior: ArrayLike = 1.0,
+    bragg: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike, ArrayLike] | None = None,
+    host_ior: ArrayLike | None = None,
     white: str = "D65",
+    backend: str = "auto",
+    parameters: Mapping[str, float | str] | None = None,
 ) -> Evaluation:
-    """Return the reflectance colour of a film over a base, ``.rgb`` of shape (..., 3).
+    """Return the reflectance colour of a film over a base, or of a Bragg mirror, ``.rgb`` of shape (..., 3).
 
     Linear Rec.709 at factor 1, not gamut-clamped: truth may be negative in a channel. All arrays of shape
     (...) broadcast together. Equation and source stand with each method in `gltf_iri.evaluation`.
 
     Parameters
     ----------
-    method : "khr", "khr-guarded", "spectral" (gltf_iri.planning.method.METHODS lists them).
+    method : one of gltf_iri.planning.method.METHODS; None takes "khr-guarded" for a film and "yeh-spectral"
+        for a mirror.
     cos_theta_1 : (...) cosine of the angle outside, in [0, 1].
-    thickness_nm : (...) thickness of the film in nanometres, ≥ 0.
+    thickness_nm : (...) thickness of the film in nanometres, ≥ 0; a film needs it.
     film_ior, outside_ior : (...) real refractive indices.
     base_f0 : a number or (..., 3), reflectance of the base at normal incidence under air, in [0, 1].
     base_ior : (...) real refractive index of the base.
     base_nk : (..., 2) index and extinction n, k of the base, k ≥ 0.
+    bragg : n1, n2, d1_nm, d2_nm and the number of cells of a mirror, each (...): the light meets the n1 film
+        of each cell first, and beyond the last cell lies n1.
+    host_ior : (...) real index outside the mirror; without it n1.
     white : "D65" or "E".
+    backend : "auto", "numpy" or "numba" (compiled loops, the extra `fast`); the result names the one used.
+    parameters : of the method, by name (``Method.parameters``).
 
     At most one of the three bases; without any, glTF's default index 1.5. Raises UsageError for an unknown
-    method or white, for two bases, for values out of range and for shapes that do not broadcast.
+    method, white, backend or parameter, for two bases, for film and mirror at once, for values out of range
+    and for shapes that do not broadcast; MissingCapabilityError for "numba" where it is not installed.
     """
+    from gltf_iri.errors import UsageError
     from gltf_iri.evaluation.film import Film
-    from gltf_iri.evaluation.registry import evaluate as evaluate_film
+    from gltf_iri.evaluation.mirror import Mirror
+    from gltf_iri.evaluation.registry import evaluate as evaluate_subject
+    from gltf_iri.planning.method import DEFAULT_METHOD, DEFAULT_MIRROR_METHOD
 
-    base = _base(base_f0, base_ior, base_nk)
-    film = Film.of(cos_theta_1, thickness_nm, film_ior, base, outside_ior)
-    return evaluate_film(method, film, white=white)
+    subject: Film | Mirror
+    if bragg is not None:
+        if thickness_nm is not None or any(b is not None for b in (base_f0, base_ior, base_nk)):
+            raise UsageError("A Bragg mirror has no film thickness and no base: give bragg or those.")
+        subject = Mirror.of(cos_theta_1, *bragg, host_ior)
+    else:
+        if thickness_nm is None or host_ior is not None:
+            raise UsageError("A film wants thickness_nm, and its outside_ior instead of host_ior.")
+        subject = Film.of(cos_theta_1, thickness_nm, film_ior, _base(base_f0, base_ior, base_nk), outside_ior)
+    default = DEFAULT_METHOD if bragg is None else DEFAULT_MIRROR_METHOD
+    return evaluate_subject(
+        default if method is None else method,
+        subject,
+        white=white,
+        backend=backend,
+        parameters=parameters or {},
+    )
 
 
 def render(

@@ -124,7 +124,7 @@ def test_a_wrong_call_raises_usage_error(wrong):
 def test_what_evaluate_takes_for_granted_is_gltfs():
     defaults = {name: p.default for name, p in inspect.signature(gltf_iri.evaluate).parameters.items()}
     assert defaults["film_ior"] == Iridescence().film_ior
-    assert defaults["method"] == DEFAULT_METHOD
+    assert gltf_iri.evaluate(cos_theta_1=1.0, thickness_nm=300.0).method == DEFAULT_METHOD
     assert defaults["white"] == WHITES[0]
 
 

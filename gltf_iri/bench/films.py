@@ -17,7 +17,7 @@ from gltf_iri.bench.fourier_variants import exact_interfaces, khr_with_exact_sen
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Film
-from gltf_iri.evaluation.registry import EVALUATORS
+from gltf_iri.evaluation.registry import evaluate
 
 __all__ = ["CONTENDERS", "WHITE", "BenchRow", "measure_films"]
 
@@ -46,7 +46,7 @@ class BenchRow:
 
 
 def _registered(method: str, film: Film, white: White) -> NDArray[np.float64]:
-    return EVALUATORS[method](film, white).rgb
+    return evaluate(method, film, white=white, backend="numpy").rgb
 
 
 def _orders(orders: int, film: Film, white: White) -> NDArray[np.float64]:
@@ -65,7 +65,7 @@ CONTENDERS: Final[dict[str, Contender]] = {
 def measure_films() -> Iterator[BenchRow]:
     """Yield one row for each contender; times are medians over some rounds on the whole set at once."""
     film = film_set()
-    truth = EVALUATORS["spectral"](film, WHITE).rgb
+    truth = evaluate("spectral", film, white=WHITE, backend="numpy").rgb
     for name, contender in CONTENDERS.items():
         rgb = contender(film, WHITE)
         times_ns = []

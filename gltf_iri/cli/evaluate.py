@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from gltf_iri.backends import BACKENDS
 from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
-from gltf_iri.planning.method import DEFAULT_METHOD, METHODS
+from gltf_iri.planning.method import DEFAULT_METHOD, DEFAULT_MIRROR_METHOD, METHODS
 
 if TYPE_CHECKING:
     from gltf_iri.evaluation.film import Evaluation
@@ -55,6 +57,20 @@ class _Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in click's
         return numbers
 
 
+class _Setting(click.ParamType):  # type: ignore[type-arg]  # generic in click's newest stubs only
+    """NAME=VALUE."""
+
+    name = "setting"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if isinstance(value, tuple):
+            return value
+        name, sign, text = str(value).partition("=")
+        if not (name and sign and text):
+            self.fail(f"'{value}' is not NAME=VALUE", param, ctx)
+        return name, text
+
+
 @click.command(name="evaluate")
 @click.argument("file", required=False, type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option("--material", metavar="M", help="Material of FILE, by name or number; else its only film.")
@@ -74,7 +90,22 @@ class _Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in click's
     default=_DEFAULT_COSINES,
     help="Cosines [1 to 0 by 0.1].",
 )
-@click.option("--method", metavar="NAME", help=f"One of {', '.join(METHODS)} [{DEFAULT_METHOD}].")
+@click.option(
+    "--bragg",
+    type=_Numbers(5),
+    metavar="N1,N2,D1,D2,CELLS",
+    help="Mirror instead of a film: indices, thicknesses in nanometres, n1 first.",
+)
+@click.option("--host", "host_ior", type=float, help="Index outside the mirror [n1].")
+@click.option(
+    "--method",
+    metavar="NAME",
+    help=f"One of {', '.join(METHODS)} [{DEFAULT_METHOD}; for mirrors {DEFAULT_MIRROR_METHOD}].",
+)
+@click.option(
+    "--set", "settings", type=_Setting(), multiple=True, metavar="NAME=VALUE", help="Parameter of the method."
+)
+@click.option("--backend", type=click.Choice(BACKENDS), default="auto", help="What calculates [auto].")
 @click.option("--white", metavar="D65|E", default="D65", help="White of the colours [D65].")
 @click.option("--layered", is_flag=True, help="Add the specular colour and base weight of FILE's material.")
 @json_option
@@ -85,38 +116,71 @@ def command(
     method: str | None,
     white: str,
     layered: bool,
+    settings: tuple[tuple[str, str], ...],
+    backend: str,
     as_json: bool,
-    **film: Any,
+    **subject: Any,
 ) -> None:
-    """Print the film's reflectance colour, linear Rec.709, at the outside angle's cosines.
+    """Print the film's or mirror's reflectance colour, linear Rec.709, at the outside angle's cosines.
 
-    Either of a material of FILE, at its thickness maximum and without its textures, or of a film given by
-    options. Colours are not cut to the gamut: the truth may be negative in a channel.
+    Either of a material of FILE, at its thickness maximum and without its textures, or of a film or a Bragg
+    mirror given by options. Colours are not cut to the gamut: the truth may be negative in a channel.
     """
-    if file is None:
-        if material is not None or layered:
-            raise click.UsageError("--material and --layered need a FILE")
-        result = _from_parameters(cosines, method, white, film)
+    how = _How(method, white, backend, dict(settings))
+    if file is not None:
+        result = _from_file(file, material, cosines, how, layered, subject)
+    elif material is not None or layered:
+        raise click.UsageError("--material and --layered need a FILE")
+    elif subject["bragg"] is not None:
+        result = _from_mirror(cosines, how, subject)
     else:
-        result = _from_file(file, material, cosines, method, white, layered, film)
+        result = _from_parameters(cosines, how, subject)
     if as_json:
         print_json(result)
         return
     _print(result)
 
 
-def _from_parameters(
-    cosines: tuple[float, ...], method: str | None, white: str, given: dict[str, Any]
-) -> dict[str, Any]:
+@dataclass(frozen=True, slots=True)
+class _How:
+    """By which method, under which white, and by what."""
+
+    method: str | None
+    white: str
+    backend: str
+    parameters: dict[str, str]
+
+
+def _from_mirror(cosines: tuple[float, ...], how: _How, given: dict[str, Any]) -> dict[str, Any]:
     import gltf_iri
 
+    for option, value in given.items():
+        if value is not None and option not in ("bragg", "host_ior"):
+            raise click.UsageError(f"a Bragg mirror has no --{option.replace('_', '-')}; leave it out")
+    evaluation = gltf_iri.evaluate(
+        how.method,
+        cos_theta_1=cosines,
+        bragg=given["bragg"],
+        host_ior=given["host_ior"],
+        white=how.white,
+        backend=how.backend,
+        parameters=how.parameters,
+    )
+    return _result(cosines, evaluation)
+
+
+def _from_parameters(cosines: tuple[float, ...], how: _How, given: dict[str, Any]) -> dict[str, Any]:
+    import gltf_iri
+
+    if given["host_ior"] is not None:
+        raise click.UsageError("--host is the index outside a mirror: give --bragg too, or --outside-ior")
     bases = [name for name in ("base_f0", "base_ior", "base_nk") if given[name] is not None]
     if len(bases) > 1:
         names = " and ".join("--" + name.replace("_", "-") for name in bases)
         raise click.UsageError(f"{names} each describe the base: give one of them")
     f0 = given["base_f0"]
     evaluation = gltf_iri.evaluate(
-        DEFAULT_METHOD if method is None else method,
+        how.method,
         cos_theta_1=cosines,
         thickness_nm=_or(given["thickness"], _DEFAULT_FILM.thickness_max_nm),
         film_ior=_or(given["film_ior"], _DEFAULT_FILM.film_ior),
@@ -124,7 +188,9 @@ def _from_parameters(
         base_ior=given["base_ior"],
         base_nk=given["base_nk"],
         outside_ior=_or(given["outside_ior"], _DEFAULT_OUTSIDE_IOR),
-        white=white,
+        white=how.white,
+        backend=how.backend,
+        parameters=how.parameters,
     )
     return _result(cosines, evaluation)
 
@@ -133,8 +199,7 @@ def _from_file(
     file: Path,
     name: str | None,
     cosines: tuple[float, ...],
-    method: str | None,
-    white: str,
+    how: _How,
     layered: bool,
     given: dict[str, Any],
 ) -> dict[str, Any]:
@@ -147,8 +212,16 @@ def _from_file(
             raise click.UsageError(f"FILE's material decides --{option.replace('_', '-')}; leave it out")
     materials = load(file).materials
     index = _chosen(materials, name, file)
-    plan = plan_material(materials[index], index, method=method)
-    done = evaluate_material(materials[index], plan, cosines, thickness_nm=given["thickness"], white=white)
+    plan = plan_material(materials[index], index, method=how.method)
+    done = evaluate_material(
+        materials[index],
+        plan,
+        cosines,
+        thickness_nm=given["thickness"],
+        white=how.white,
+        backend=how.backend,
+        parameters=how.parameters,
+    )
     result = _result(cosines, done.film)
     result |= {"material": plan.name, "index": index, "thickness_nm": done.thickness_nm}
     result |= {"thickness_range_nm": done.thickness_range_nm, "factor": done.factor}
@@ -187,6 +260,7 @@ def _result(cosines: tuple[float, ...], evaluation: Evaluation) -> dict[str, Any
         "cos": cosines,
         "rgb": evaluation.rgb,
         "backend": evaluation.backend,
+        "parameters": dict(evaluation.parameters),
         "undefined": {
             case: [c for c, touched in zip(cosines, mask, strict=True) if touched]
             for case, mask in evaluation.undefined.items()
@@ -203,7 +277,8 @@ def _print(result: dict[str, Any]) -> None:
         columns += ["specular R", "G", "B", "base weight"]
         for row, specular, weight in zip(rows, result["specular"], result["base_weight"], strict=True):
             row += [*(f"{v:.6f}" for v in specular), f"{weight:.6f}"]
-    title = f"{result['method']}, {result['white']} white, linear Rec.709"
+    chosen = "".join(f", {name} {value}" for name, value in result["parameters"].items())
+    title = f"{result['method']}{chosen}, by {result['backend']}, {result['white']} white, linear Rec.709"
     if "material" in result:
         label = material_label(result["index"], result["material"])
         low_nm, high_nm = result["thickness_range_nm"]

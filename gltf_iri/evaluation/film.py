@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.colour.integrate import integrate_colour
 from gltf_iri.errors import UsageError
+from gltf_iri.planning.method import ParameterValue
 
 __all__ = [
     "Base",
@@ -184,7 +185,9 @@ class Evaluation:
     """Reflectance colours and what a reader must know about them.
 
     rgb : (..., 3) linear Rec.709, not gamut-clamped.
+    backend : "numpy", "numba", or the OpenGL renderer.
     undefined : for each undefined case of the method's text that occurred, the mask (...) of rows it touched.
+    parameters : what the method's parameters were.
     """
 
     rgb: Float64
@@ -192,3 +195,4 @@ class Evaluation:
     white: str
     backend: str = "numpy"
     undefined: Mapping[str, NDArray[np.bool_]] = field(default_factory=dict)
+    parameters: Mapping[str, ParameterValue] = field(default_factory=dict)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +25,7 @@ from gltf_iri.optics.layering import (
 )
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.method import ParameterValue
 
 __all__ = ["MaterialFilm", "evaluate_material"]
 
@@ -54,6 +57,8 @@ def evaluate_material(
     *,
     thickness_nm: float | None = None,
     white: str = "D65",
+    backend: str = "auto",
+    parameters: Mapping[str, ParameterValue] = MappingProxyType({}),
 ) -> MaterialFilm:
     """Evaluate the film of `material` by its plan's method, for light at V·H = `cos_theta` (...).
 
@@ -77,7 +82,13 @@ def evaluate_material(
     weight = specular.factor if plan.layering == "specular" else 1.0
     method, ior = plan.method, iridescence.film_ior
     over_dielectric, over_metal = (
-        evaluate(method, Film.of(cosine, thickness, ior, base_from_f0(f0)), white=white)
+        evaluate(
+            method,
+            Film.of(cosine, thickness, ior, base_from_f0(f0)),
+            white=white,
+            backend=backend,
+            parameters=parameters,
+        )
         for f0 in (weight * dielectric_f0, metal_f0)
     )
 
@@ -107,7 +118,7 @@ def _mixed(dielectric: Evaluation, metal: Evaluation, metalness: float) -> Evalu
         for case, mask in part.undefined.items():
             undefined[case] = undefined.get(case, np.zeros(mask.shape, dtype=np.bool_)) | mask
     rgb = _by_metalness(dielectric.rgb, metal.rgb, metalness)
-    return Evaluation(rgb, dielectric.method, dielectric.white, dielectric.backend, undefined)
+    return replace(dielectric, rgb=rgb, undefined=undefined)
 
 
 def _by_metalness(dielectric: Float64, metal: Float64, metalness: float) -> Float64:

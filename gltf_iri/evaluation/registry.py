@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from types import MappingProxyType
+from typing import Any
 
-from gltf_iri.colour.spaces import WHITES, White
+import numpy as np
+
+from gltf_iri.backends import choose_backend
+from gltf_iri.colour.spaces import WHITES
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Evaluation, Film
 from gltf_iri.evaluation.khr import evaluate_khr
 from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
+from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.spectral import evaluate_spectral
-from gltf_iri.planning.method import find_method
+from gltf_iri.planning.method import ParameterValue, find_method
 
 __all__ = ["EVALUATORS", "Evaluator", "evaluate"]
 
-Evaluator = Callable[[Film, White], Evaluation]
+# evaluator(film or mirror, white, **parameters, and `backend` where the method has more than one)
+Evaluator = Callable[..., Evaluation]
 
 # Names are those of gltf_iri.planning.method.METHODS; a test holds both sets equal.
 EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
@@ -27,13 +34,31 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
 )
 
 
-def evaluate(method: str, film: Film, *, white: str = "D65") -> Evaluation:
-    """Return the reflectance colour of `film` (shape film.shape + (3,)) by the method called `method`.
+def evaluate(
+    method: str,
+    subject: Film | Mirror,
+    *,
+    white: str = "D65",
+    backend: str = "auto",
+    parameters: Mapping[str, ParameterValue] = MappingProxyType({}),
+) -> Evaluation:
+    """Return the reflectance colour of `subject` (shape subject.shape + (3,)) by the method called `method`.
 
-    Raises UsageError where the method or the white ("D65", "E") is unknown.
+    Raises UsageError where the method or the white ("D65", "E") is unknown, the method is not one for films
+    or mirrors as the subject is, or has no such parameter or backend.
     """
-    descriptor = find_method(method)
-    for known in WHITES:
-        if white == known:
-            return EVALUATORS[descriptor.name](film, known)
-    raise UsageError(f"There is no white '{white}'; choose one of: {', '.join(WHITES)}.")
+    descriptor = find_method(method, "mirror" if isinstance(subject, Mirror) else "film")
+    if white not in WHITES:
+        raise UsageError(f"There is no white '{white}'; choose one of: {', '.join(WHITES)}.")
+    known = {parameter.name: parameter for parameter in descriptor.parameters}
+    for name in parameters:
+        if name not in known:
+            has = f"only {', '.join(known)}" if known else "none"
+            raise UsageError(f"The method '{method}' has no parameter '{name}' ({has}).")
+    values = {name: each.checked(parameters.get(name, each.default), method) for name, each in known.items()}
+    count = int(np.prod(subject.shape, dtype=np.intp))
+    chosen = choose_backend(backend, count, descriptor.backends, method)
+    arguments: dict[str, Any] = dict(values)
+    if len(descriptor.backends) > 1:
+        arguments["backend"] = chosen
+    return replace(EVALUATORS[method](subject, white, **arguments), backend=chosen, parameters=values)

@@ -63,7 +63,7 @@ def plan_material(material: Material, index: int, *, method: str | None = None) 
 
     Raises UsageError where the method does not exist or does not compute films.
     """
-    descriptor = find_method(DEFAULT_METHOD if method is None else method)
+    descriptor = find_method(DEFAULT_METHOD if method is None else method, "film")
     if descriptor.domain != "film":
         raise UsageError(f"The method '{method}' computes mirrors; a material's film wants another.")
     decided = dict(_verdicts(material, descriptor))

@@ -11,26 +11,63 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final, Literal
 
+from gltf_iri.backends import Backend
 from gltf_iri.errors import UsageError
 
-__all__ = ["DEFAULT_METHOD", "METHODS", "Method", "find_method"]
+__all__ = ["DEFAULT_METHOD", "DEFAULT_MIRROR_METHOD", "METHODS", "Domain", "Method", "Parameter"]
+__all__ += ["ParameterValue", "find_method", "method_names"]
 
 DEFAULT_METHOD: Final = "khr-guarded"
+DEFAULT_MIRROR_METHOD: Final = "yeh-spectral"
+
+Domain = Literal["film", "mirror"]
+ParameterValue = float | str
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    """What a method lets its caller choose: a number in a range, whole where `default` is, or a word."""
+
+    name: str
+    about: str
+    default: ParameterValue
+    minimum: float = 0.0
+    maximum: float = 0.0
+    choices: tuple[str, ...] = ()
+
+    def checked(self, value: ParameterValue, method: str) -> ParameterValue:
+        """Return `value` in the type of the default; UsageError where it is not one of those allowed."""
+        if self.choices:
+            if value in self.choices:
+                return value
+            wanted = f"one of {', '.join(self.choices)}"
+        else:
+            is_whole = isinstance(self.default, int)
+            wanted = f"a {'whole ' if is_whole else ''}number from {self.minimum:g} to {self.maximum:g}"
+            try:
+                number = float(value)
+            except ValueError:
+                number = float("nan")
+            if self.minimum <= number <= self.maximum and not (is_whole and number % 1.0):
+                return int(number) if is_whole else number
+        raise UsageError(f"The parameter {self.name} of method '{method}' wants {wanted}, not '{value}'.")
 
 
 @dataclass(frozen=True, slots=True)
 class Method:
-    """One published way to turn a film into a colour."""
+    """One published way to turn a film or a mirror into a colour."""
 
     name: str
-    domain: Literal["film", "mirror"]
+    domain: Domain
     about: str
     source: str
     is_truth: bool  # exact up to a stated, converged quadrature error
-    glsl_function: str | None  # the twin in shaders/optics, or None where there is none yet
-    delta_e_mean: (
-        float | None
-    )  # CIEDE2000 against truth on the film set of the benchmark; None: undefined cases
+    glsl_function: str | None  # the twin in shaders/optics, or None where there is none
+    # CIEDE2000 against truth on the benchmark's set for its domain; None where it has no number of its own
+    delta_e_mean: float | None
+    parameters: tuple[Parameter, ...] = ()  # keyword arguments of its evaluator
+    backends: tuple[Backend, ...] = ("numpy",)  # with more than one, its evaluator takes `backend`
+    glsl_tables: tuple[str, ...] = ()  # the samplers that its twin reads (rendering/optics_tables.py)
 
     @property
     def define(self) -> str:
@@ -68,13 +105,21 @@ _FILM_METHODS = (
     ),
 )
 
-METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in _FILM_METHODS})
+_MIRROR_METHODS: tuple[Method, ...] = ()
+
+METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (*_FILM_METHODS, *_MIRROR_METHODS)})
 
 
-def find_method(name: str) -> Method:
-    """Return the descriptor called `name`; an unknown name raises UsageError."""
-    try:
-        return METHODS[name]
-    except KeyError:
-        known = ", ".join(METHODS)
-        raise UsageError(f"There is no method '{name}'; choose one of: {known}.") from None
+def method_names(domain: Domain) -> tuple[str, ...]:
+    """Return the names of the methods for films, or of those for mirrors."""
+    return tuple(method.name for method in METHODS.values() if method.domain == domain)
+
+
+def find_method(name: str, domain: Domain | None = None) -> Method:
+    """Return the descriptor called `name`; UsageError where there is none in `domain`."""
+    method = METHODS.get(name)
+    if method is None or domain not in (None, method.domain):
+        known = ", ".join(m.name for m in METHODS.values() if domain in (None, m.domain))
+        kind = "" if method is None else f" for a {domain}"
+        raise UsageError(f"There is no method '{name}'{kind}; choose one of: {known}.")
+    return method

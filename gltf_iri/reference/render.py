@@ -149,7 +149,7 @@ def _check(
         )
     if lighting not in LIGHTINGS:
         raise UsageError(f"There is no lighting '{lighting}'; choose one of: {', '.join(LIGHTINGS)}.")
-    if film_method is not None and find_method(film_method).name not in EVALUATORS:
+    if film_method is not None and find_method(film_method, "film").name not in EVALUATORS:
         raise UsageError(f"The method '{film_method}' does not compute films.")
     for number, name, most in (
         (image_samples, "image samples", _MAX_SAMPLES),

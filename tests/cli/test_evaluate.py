@@ -10,7 +10,8 @@ import pytest
 
 from gltf_iri.cli.main import run
 from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
-from gltf_iri.evaluation.registry import EVALUATORS, evaluate
+from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.planning.method import method_names
 
 TWO_FILMS = {
     "asset": {"version": "2.0"},
@@ -35,7 +36,7 @@ def answer(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict[str, obj
     return json.loads(capsys.readouterr().out)
 
 
-@pytest.mark.parametrize("method", EVALUATORS)
+@pytest.mark.parametrize("method", method_names("film"))
 def test_options_describe_the_film(method: str, capsys: pytest.CaptureFixture[str]) -> None:
     options = "--film-ior 1.4 --thickness 250 --base-nk 0.2,3.4 --outside-ior 1.1 --cos 1,0.5 --white E"
     found = answer(capsys, *options.split(), "--method", method)

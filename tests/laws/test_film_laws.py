@@ -9,12 +9,14 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
-from gltf_iri.evaluation.registry import EVALUATORS, evaluate
+from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.fresnel import amplitude_p, amplitude_s, f_schlick
 from gltf_iri.optics.refraction import normal_index, normal_index_squared
+from gltf_iri.planning.method import method_names
 
 # The text's floor of 1e-5 on R123, its sensitivities' own white and its fringes at zero thickness.
-LAWFUL = [name for name in EVALUATORS if name != "khr"]
+METHODS = method_names("film")
+LAWFUL = [name for name in METHODS if name != "khr"]
 
 # Exactly grazing, and everything whose square float64 can hold.
 cosines = st.just(0.0) | st.floats(1e-100, 1.0)
@@ -85,7 +87,7 @@ def test_khr_breaks_it_a_white_metal_exceeds_white() -> None:
     assert rgb.max() > 1.0
 
 
-@pytest.mark.parametrize("method", EVALUATORS)
+@pytest.mark.parametrize("method", METHODS)
 @given(thickness_nm=thicknesses_nm, film_ior=st.floats(1.05, 2.5), base_ior=st.floats(1.05, 3.0))
 @settings(deadline=None, max_examples=25)
 def test_grazing_light_is_all_reflected(

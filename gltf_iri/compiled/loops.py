@@ -1,0 +1,29 @@
+"""How loops are compiled, the same for all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeVar, cast
+
+import numba
+
+__all__ = ["inline", "loop"]
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+# Python's check for a zero divisor keeps the compiler from using vector instructions; numpy's rules (∞, NaN)
+# do not. Of the liberties with floating point only fused multiply-add is taken: sums keep their order.
+_OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
+
+
+def loop(function: Function) -> Function:
+    """Compile a function that runs over arrays; its machine code is kept on disk for the next start."""
+    try:
+        return cast(Function, numba.njit(cache=True, **_OPTIONS)(function))
+    except RuntimeError:  # no folder for it can be written: compile anew at each start
+        return cast(Function, numba.njit(**_OPTIONS)(function))
+
+
+def inline(function: Function) -> Function:
+    """Compile a scalar function into the loops that call it."""
+    return cast(Function, numba.njit(inline="always", **_OPTIONS)(function))
