@@ -1,24 +1,28 @@
 """Evaluates any function of shaders/optics and shaders/material on arrays of float32.
 
 Arguments become vertex attributes and results leave through transform feedback, both as plain float32: no
-texture, filter or framebuffer lies between the arrays and the function.
+filter or framebuffer lies between the arrays and the function. Tables that the function samples are textures.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Literal
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Final, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.errors import UsageError
-from gltf_iri.evaluation.film import Evaluation, Film
+from gltf_iri.evaluation.film import Evaluation, Film, base_from_f0
+from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.method import METHODS, find_method
+from gltf_iri.planning.method import METHODS, ParameterValue, find_method
 from gltf_iri.rendering.context import renderer_name
+from gltf_iri.rendering.optics_tables import optics_table, table_texture
 from gltf_iri.rendering.source import ShaderSource, assemble_text, build_program
+from gltf_iri.rendering.uniforms import bind
 
 if TYPE_CHECKING:
     import moderngl
@@ -30,6 +34,13 @@ Float32 = NDArray[np.float32]
 
 _COMPONENTS: dict[ResultType, int] = {"float": 1, "vec3": 3}
 
+# What the twins take, in this order.
+_FILM_TYPES: Final[tuple[ResultType, ...]] = ("float", "float", "vec3", "float", "float")
+_MIRROR_TYPES: Final[tuple[ResultType, ...]] = ("float",) * 7
+
+# Methods whose text leaves values undefined; Python lists the rows, GLSL cannot.
+_WITH_UNDEFINED_CASES: Final = frozenset({"khr"})
+
 
 class Probe:
     """Calls GLSL functions on arrays; one program per function is kept."""
@@ -40,25 +51,39 @@ class Probe:
         # Nothing is drawn into it; without a window OpenGL refuses to run at all until something is bound.
         self._scope = context.scope(context.simple_framebuffer((1, 1)))
 
-    def evaluate(self, method: str, film: Film, *, white: str = "D65") -> Evaluation:
-        """Return the reflectance of `film` by the GLSL twin of `method`, with `backend` naming the renderer.
+    def evaluate(
+        self,
+        method: str,
+        subject: Film | Mirror,
+        *,
+        white: str = "D65",
+        parameters: Mapping[str, ParameterValue] = MappingProxyType({}),
+    ) -> Evaluation:
+        """Return the reflectance of `subject` by the GLSL twin of `method`; `backend` names the renderer.
 
-        Same signature as the Python evaluators'; arguments are rounded to float32. GLSL cannot tell where the
-        text leaves a value undefined: those rows are listed by the Python twin. Raises UsageError where
-        the method or the white is unknown or the method has no GLSL twin.
+        Same signature as the Python evaluators'; arguments are rounded to float32. Parameters reach GLSL
+        through the method's tables. GLSL cannot tell where the text leaves a value undefined: those rows are
+        listed by the Python twin. Raises UsageError where the method, the white or a parameter is unknown,
+        the method has no GLSL twin, and for what no twin computes: a mirror whose cells absorb.
         """
-        function = find_method(method).glsl_function
+        descriptor = find_method(method, "mirror" if isinstance(subject, Mirror) else "film")
+        function = descriptor.glsl_function
         if function is None:
-            having = ", ".join(name for name, other in METHODS.items() if other.glsl_function)
+            having = ", ".join(
+                name for name, m in METHODS.items() if m.glsl_function and m.domain == descriptor.domain
+            )
             raise UsageError(f"The method '{method}' has no GLSL twin; those that have one: {having}.")
+        named = evaluate(method, _small(subject), white=white, parameters=parameters)
         rgb = self.call(
             function,
             f"optics/{method.replace('-', '_')}.glsl",
-            [film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1],
-            argument_types=["float", "float", "vec3", "float", "float"],
+            _arguments(subject),
+            argument_types=_MIRROR_TYPES if isinstance(subject, Mirror) else _FILM_TYPES,
+            tables={table: optics_table(table, white, named.parameters) for table in descriptor.glsl_tables},
         )
-        twin = evaluate(method, film, white=white)
-        return replace(twin, rgb=rgb.astype(np.float64), backend=renderer_name(self._context))
+        if method in _WITH_UNDEFINED_CASES:
+            named = evaluate(method, subject, white=white, parameters=parameters)
+        return replace(named, rgb=rgb.astype(np.float64), backend=renderer_name(self._context))
 
     def call(
         self,
@@ -69,6 +94,7 @@ class Probe:
         *,
         argument_types: Sequence[ResultType] | None = None,
         member: str = "",
+        tables: Mapping[str, Float32] = MappingProxyType({}),
     ) -> Float32:
         """Return `function` of the file `include` (below shaders/) for each row of the broadcast arguments.
 
@@ -77,6 +103,7 @@ class Probe:
         arguments : a float takes an array (...), a vec3 one (..., 3).
         argument_types : the GLSL type of each; without it an array whose last axis is 3 is a vec3.
         result : the type of what the function returns, or of its `member` where it returns a struct.
+        tables : for each sampler that the function reads, what fills it: (rows, columns, 1–4 channels).
 
         Returns (...) for a float and (..., 3) for a vec3, float32. Raises ShaderError where the call does not
         compile, UsageError where shapes do not go together.
@@ -89,26 +116,42 @@ class Probe:
             for a, t in zip(arrays, types, strict=True)
         ]
         source = probe_source(function, include, types, result, member)
-        values = self._run(source, np.ascontiguousarray(np.concatenate(rows, axis=1)), types, result)
+        values = self._run(source, np.ascontiguousarray(np.concatenate(rows, axis=1)), types, result, tables)
         return values.reshape((*shape, 3) if result == "vec3" else shape)
 
     def _run(
-        self, source: ShaderSource, table: Float32, types: Sequence[ResultType], result: ResultType
+        self,
+        source: ShaderSource,
+        rows: Float32,
+        types: Sequence[ResultType],
+        result: ResultType,
+        tables: Mapping[str, Float32],
     ) -> Float32:
         if source not in self._programs:
             self._programs[source] = build_program(self._context, source, varyings=("probe_result",))
         program = self._programs[source]
-        if table.shape[0] == 0:
+        if rows.shape[0] == 0:
             return np.zeros((0, _COMPONENTS[result]), dtype=np.float32)
-        layout = " ".join(f"{_COMPONENTS[t]}f" for t in types)
-        inputs = self._context.buffer(table.tobytes())
-        outputs = self._context.buffer(reserve=table.shape[0] * _COMPONENTS[result] * 4)
-        array = self._context.vertex_array(program, [(inputs, layout, *(f"a{i}" for i in range(len(types))))])
+        # A compiler removes an attribute on which nothing depends: its bytes are skipped.
+        names = [f"a{i}" for i in range(len(types))]
+        layout = " ".join(
+            f"{_COMPONENTS[t]}f" if name in program else f"{4 * _COMPONENTS[t]}x"
+            for name, t in zip(names, types, strict=True)
+        )
+        textures: dict[str, moderngl.Texture] = {}
+        inputs = self._context.buffer(rows.tobytes())
+        outputs = self._context.buffer(reserve=rows.shape[0] * _COMPONENTS[result] * 4)
+        array = self._context.vertex_array(program, [(inputs, layout, *(name for name in names if name in program))])
         try:
+            for name, table in tables.items():
+                textures[name] = table_texture(self._context, table)
+            bind(program, {}, textures)
             with self._scope:
-                array.transform(outputs, mode=self._context.POINTS, vertices=table.shape[0])
+                array.transform(outputs, mode=self._context.POINTS, vertices=rows.shape[0])
             return np.frombuffer(outputs.read(), dtype=np.float32).copy()
         finally:
+            for texture in textures.values():
+                texture.release()
             for resource in (array, inputs, outputs):
                 resource.release()
 
@@ -128,6 +171,25 @@ def probe_source(
         "}",
     ]
     return assemble_text("\n".join(lines), f"probe of {function}")
+
+
+def _arguments(subject: Film | Mirror) -> list[NDArray[np.float64]]:
+    """Return what the twins take, in their order; UsageError for cells that absorb."""
+    if isinstance(subject, Film):
+        film = subject
+        return [film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1]
+    if not subject.is_lossless:
+        raise UsageError("The GLSL twins of mirror methods know lossless cells only: leave k out.")
+    cells = subject.cells.astype(np.float64)
+    films = [subject.n1.real, subject.n2.real, subject.d1_nm, subject.d2_nm]
+    return [subject.host_ior, *films, cells, subject.cos_theta_h]
+
+
+def _small(subject: Film | Mirror) -> Film | Mirror:
+    """Return one film or mirror, on which Python checks names and ranges in no time."""
+    if isinstance(subject, Film):
+        return Film.of(1.0, 100.0, 1.3, base_from_f0([0.04] * 3))
+    return Mirror.of(1.0, 1.0, 1.5, 100.0, 100.0, 5)
 
 
 def _row_shape(arrays: Sequence[Float32], types: Sequence[ResultType]) -> tuple[int, ...]:

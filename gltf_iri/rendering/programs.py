@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Final
 
 from gltf_iri.errors import MissingCapabilityError, UsageError
@@ -21,10 +22,12 @@ def surface_sources(defines: tuple[str, ...]) -> tuple[ShaderSource, ShaderSourc
 
 def check_method(name: str | None) -> None:
     """Raise UsageError where the film method `name` has no GLSL twin; None stands for no film."""
-    if name is not None and find_method(name).glsl_function is None:
-        drawable = ", ".join(name for name, method in METHODS.items() if method.glsl_function)
+    if name is not None and find_method(name, "film").glsl_function is None:
+        drawable = ", ".join(m.name for m in METHODS.values() if m.glsl_function and m.domain == "film")
         raise UsageError(f"The method '{name}' cannot be drawn; methods that can are: {drawable}.")
 
+
+_SAMPLER: Final = re.compile(r"^\s*uniform (?:highp )?sampler", re.MULTILINE)
 
 # On llvmpipe a program holds some 10 MB; a picture uses a handful, and many files in a row ever new ones.
 KEPT_PROGRAMS: Final = 32
@@ -45,7 +48,7 @@ class ProgramStore:
         """
         if defines not in self._programs:
             vertex, fragment = surface_sources(defines)
-            count = fragment.text.count("uniform sampler")
+            count = len(_SAMPLER.findall(fragment.text))
             limit = self._context.info["GL_MAX_TEXTURE_IMAGE_UNITS"]
             if count > limit:
                 raise MissingCapabilityError(

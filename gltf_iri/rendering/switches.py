@@ -21,6 +21,6 @@ LAYER_INPUTS: Final = "LAYER_INPUTS"
 
 SWITCHES: Final = frozenset(
     {effect.define for effect in Effect}
-    | {method.define for method in METHODS.values() if method.glsl_function}
+    | {m.define for m in METHODS.values() if m.glsl_function and m.domain == "film"}
     | {LAYERING_SPECULAR, SHADING_INPUTS, LAYER_INPUTS}
 )

@@ -13,6 +13,7 @@ import pytest
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.method import METHODS
 from gltf_iri.rendering import source
+from gltf_iri.rendering.optics_tables import OPTICS_TABLES
 from gltf_iri.rendering.source import ShaderError, assemble, assemble_text, build_program, translate_log
 from gltf_iri.rendering.switches import SWITCHES
 from gltf_iri.resources import shader_root
@@ -100,9 +101,9 @@ def test_a_define_that_would_do_nothing_is_refused(text: str, defines: list[str]
         assemble_text(text, "t", defines)
 
 
-def test_every_effect_and_method_with_a_twin_has_its_switch() -> None:
+def test_every_effect_and_film_method_with_a_twin_has_its_switch() -> None:
     assert {effect.define for effect in Effect} <= SWITCHES
-    twins = {method.define for method in METHODS.values() if method.glsl_function}
+    twins = {m.define for m in METHODS.values() if m.glsl_function and m.domain == "film"}
     assert {s for s in SWITCHES if s.startswith("METHOD_")} == twins
 
 
@@ -133,8 +134,10 @@ def test_optics_are_valid_on_desktop_and_on_embedded_gl(entry: str, version: str
 
 
 @pytest.mark.parametrize("entry", OPTICS)
-def test_optics_hold_functions_and_constants_only(entry: str) -> None:
+def test_optics_hold_functions_constants_and_known_tables_only(entry: str) -> None:
     text = assemble(entry).text
+    tables = "|".join(OPTICS_TABLES)
+    text = re.sub(rf"^uniform highp sampler2D ({tables});$", "", text, flags=re.MULTILINE)
     assert not re.search(r"^\s*(uniform|in|out|varying|attribute|layout)\b(?!.*\))", text, re.MULTILINE)
 
 
