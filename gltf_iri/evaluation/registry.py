@@ -13,6 +13,7 @@ from gltf_iri.backends import choose_backend
 from gltf_iri.colour.spaces import WHITES
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Evaluation, Film
+from gltf_iri.evaluation.granier_heidrich import evaluate_granier_heidrich
 from gltf_iri.evaluation.khr import evaluate_khr
 from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
 from gltf_iri.evaluation.mirror import Mirror
@@ -29,6 +30,7 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
     {
         "khr": evaluate_khr,
         "khr-guarded": evaluate_khr_guarded,
+        "granier-heidrich": evaluate_granier_heidrich,
         "spectral": evaluate_spectral,
     }
 )

@@ -95,6 +95,15 @@ _FILM_METHODS = (
         delta_e_mean=3.25,
     ),
     Method(
+        "granier-heidrich",
+        "film",
+        "Two interfering Phong lobes at one wavelength a channel; here at the mirror direction, lobes of 1.",
+        "Granier & Heidrich 2003, Eq. 3-11",
+        is_truth=False,
+        glsl_function="iridescent_fresnel_granier_heidrich",
+        delta_e_mean=47.6,
+    ),
+    Method(
         "spectral",
         "film",
         "Exact Airy reflectance, both polarisations, integrated over the spectrum until it no longer moves.",
