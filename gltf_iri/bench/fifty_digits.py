@@ -68,7 +68,7 @@ def mirror_50_digits(
     wavelength_nm: float,
     cos_theta_h: float,
 ) -> Powers:
-    """Return R and T of both polarisations for `cells` cells under a host; n1 is met first and lies beyond."""
+    """Return R and T of both polarisations for `cells` cells; n1 is met first and lies beyond the last."""
     return _powers(host_ior, [(n1, d1_nm), (n2, d2_nm)], cells, n1, wavelength_nm, cos_theta_h)
 
 
