@@ -36,12 +36,12 @@ class Powers(NamedTuple):
     @property
     def reflected(self) -> Any:
         """The reflected share of unpolarised light."""
-        return (self.R_s + self.R_p) / 2
+        return _mean(self.R_s, self.R_p)
 
     @property
     def transmitted(self) -> Any:
         """The transmitted share of unpolarised light."""
-        return (self.T_s + self.T_p) / 2
+        return _mean(self.T_s, self.T_p)
 
 
 def stack_50_digits(
@@ -70,6 +70,13 @@ def mirror_50_digits(
 ) -> Powers:
     """Return R and T of both polarisations for `cells` cells; n1 is met first and lies beyond the last."""
     return _powers(host_ior, [(n1, d1_nm), (n2, d2_nm)], cells, n1, wavelength_nm, cos_theta_h)
+
+
+def _mean(a: Any, b: Any) -> Any:
+    from mpmath import mp
+
+    with mp.workdps(_WORKING_DIGITS):  # mpmath rounds to the digits of where it is asked
+        return (a + b) / 2
 
 
 def _powers(

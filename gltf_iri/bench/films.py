@@ -1,86 +1,58 @@
-"""Workload `films`: how far each method is from the truth on the film set, and what it costs."""
+"""Workloads `films` and `films-3um`: how far each film method is from the truth, and what it costs."""
 
 from __future__ import annotations
 
 import functools
-import statistics
-import time
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass
-from typing import Any, Final
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, Settings, colour_rows, registered
 from gltf_iri.bench.film_set import film_set
 from gltf_iri.bench.fourier_variants import exact_interfaces, khr_with_exact_sensitivity
-from gltf_iri.colour.difference import delta_e_2000
-from gltf_iri.colour.spaces import White
-from gltf_iri.evaluation.film import Film
+from gltf_iri.evaluation.film import Film, base_from_ior
 from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.planning.method import method_names
 
-__all__ = ["CONTENDERS", "WHITE", "BenchRow", "measure_films"]
+__all__ = ["FILM_ROUNDS", "FILM_WORKLOADS", "measure_films", "thicker_film_set"]
 
-Contender = Callable[[Film, White], NDArray[np.float64]]
+FILM_ROUNDS: Final = 5
+_ORDERS: Final = (1, 2, 3, 6)
 
-WHITE: Final[White] = "D65"
-_ROUNDS: Final = 5
-
-
-@dataclass(frozen=True, slots=True)
-class BenchRow:
-    """One row of the benchmark; errors are against `spectral` under D65, ΔE is CIEDE2000."""
-
-    workload: str
-    method: str
-    backend: str
-    ns_per_eval: float
-    max_abs: float
-    delta_e_mean: float
-    delta_e_p95: float
-    delta_e_max: float
-
-    def to_json(self) -> dict[str, Any]:
-        """Return the row of `bench --json`."""
-        return asdict(self)
+# Parameters of a method that are worth a row of their own beside the defaults.
+_SETTINGS: Final[dict[str, tuple[Settings, ...]]] = {}
 
 
-def _registered(method: str, film: Film, white: White) -> NDArray[np.float64]:
-    return evaluate(method, film, white=white, backend="numpy").rgb
+def thicker_film_set() -> Film:
+    """Return the film set with its thicknesses stretched from 100–800 nm to 100–3000 nm: the same draws."""
+    thin = film_set()
+    thickness_nm = 100.0 + (thin.thickness_nm - 100.0) * (2900.0 / 700.0)
+    return Film.of(thin.cos_theta_1, thickness_nm, thin.film_ior, base_from_ior(thin.base.index[..., 0].real))
 
 
-def _orders(orders: int, film: Film, white: White) -> NDArray[np.float64]:
-    return exact_interfaces(film, white, orders)
+FILM_WORKLOADS: Final[dict[str, Callable[[], Film]]] = {"films": film_set, "films-3um": thicker_film_set}
 
 
-CONTENDERS: Final[dict[str, Contender]] = {
-    "khr": functools.partial(_registered, "khr"),
-    "khr, exact sensitivity": khr_with_exact_sensitivity,
-    **{f"exact interfaces, m ≤ {m}": functools.partial(_orders, m) for m in (1, 2, 3, 6)},
-    "khr-guarded": functools.partial(_registered, "khr-guarded"),
-    "spectral": functools.partial(_registered, "spectral"),
-}
-
-
-def measure_films() -> Iterator[BenchRow]:
-    """Yield one row for each contender; times are medians over some rounds on the whole set at once."""
-    film = film_set()
+def measure_films(
+    workload: str = "films", rounds: int = FILM_ROUNDS, after_round: Callable[[], None] = lambda: None
+) -> list[ColourRow]:
+    """Return one row for each film method, its parameters and backends, and for the text's variants."""
+    film = FILM_WORKLOADS[workload]()
     truth = evaluate("spectral", film, white=WHITE, backend="numpy").rgb
-    for name, contender in CONTENDERS.items():
-        rgb = contender(film, WHITE)
-        times_ns = []
-        for _ in range(_ROUNDS):
-            start = time.perf_counter_ns()
-            contender(film, WHITE)
-            times_ns.append(time.perf_counter_ns() - start)
-        delta_e = delta_e_2000(rgb, truth)
-        yield BenchRow(
-            workload="films",
-            method=name,
-            backend="numpy",
-            ns_per_eval=statistics.median(times_ns) / len(truth),
-            max_abs=float(np.abs(rgb - truth).max()),
-            delta_e_mean=float(delta_e.mean()),
-            delta_e_p95=float(np.percentile(delta_e, 95)),
-            delta_e_max=float(delta_e.max()),
-        )
+    return colour_rows(workload, list(_contestants(film)), truth, rounds, after_round)
+
+
+def _contestants(film: Film) -> Iterator[Contestant]:
+    for method in method_names("film"):
+        yield from registered(method, film, ({}, *_SETTINGS.get(method, ())))
+    yield Contestant(
+        "khr, exact sensitivity", "numpy", functools.partial(khr_with_exact_sensitivity, film, WHITE)
+    )
+    for orders in _ORDERS:
+        yield Contestant(f"exact interfaces, m ≤ {orders}", "numpy", functools.partial(_series, film, orders))
+
+
+def _series(film: Film, orders: int) -> NDArray[np.float64]:
+    return exact_interfaces(film, WHITE, orders)

@@ -2,48 +2,188 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
 import click
 
-from gltf_iri.cli.common import json_option, print_json, print_table, progress
+from gltf_iri.cli.common import json_option, note, print_json, print_table, progress
+from gltf_iri.errors import UsageError
 
-__all__ = ["command"]
+if TYPE_CHECKING:
+    from gltf_iri.bench.colour_rows import ColourRow
+    from gltf_iri.bench.optics import OpticsRow
 
-_WORKLOADS = ("films",)
+__all__ = ["FILMS", "OPTICS", "command"]
+
+OPTICS = ("W1", "W2", "W3", "W4", "W5", "lossy-film", "tir-film", "lossy-cells", "tir-cells")
+FILMS = ("films", "films-3um")
+_NAMES = (*FILMS, "mirrors", "optics", *OPTICS)
+_DEFAULT = ("films", "mirrors")
+
+
+@dataclass(slots=True)
+class _Report:
+    """What one call measured: tables for people, and the same rows for programs."""
+
+    machine: dict[str, Any] = field(default_factory=dict)
+    rows: list[Any] = field(default_factory=list)
+    skipped: dict[str, str] = field(default_factory=dict)
+    tables: list[Callable[[], None]] = field(default_factory=list)
 
 
 @click.command(name="bench")
-@click.argument("names", metavar="[NAME]...", nargs=-1, type=click.Choice(_WORKLOADS))
+@click.argument("names", metavar="[NAME]...", nargs=-1, type=click.Choice(_NAMES))
+@click.option("--peers", is_flag=True, help="Beside the libraries that compute the same (optics only).")
+@click.option("--rounds", type=click.IntRange(1, 1000), metavar="N", help="Rounds a median is taken over.")
+@click.option(
+    "--plot",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE.png",
+    help="Draw time against error (optics only).",
+)
 @json_option
-def command(names: tuple[str, ...], as_json: bool) -> None:
-    """Measure the workloads called NAME; without a name, all of them.
+def command(
+    names: tuple[str, ...], peers: bool, rounds: int | None, plot: Path | None, as_json: bool
+) -> None:
+    """Measure the workloads called NAME; without a name, films and mirrors.
 
-    films: 1,200 random dielectric films, each method against the converged spectral truth under D65.
+    films, films-3um: 1,200 random dielectric films up to 800 nm, or 3 µm, each method against the converged
+    spectral truth under D65. mirrors: the same for Bragg mirrors of 5 to 200 cells.
+
+    optics: reflectances of films, mirrors and stacks on one thread, their error against 50 digits; it is the
+    sum of W1 to W5, lossy-film, tir-film, lossy-cells and tir-cells, each of which is a NAME too.
     """
-    from gltf_iri.bench.films import CONTENDERS, measure_films
-
-    # "films" is the only workload so far: naming it once, twice or not at all asks for the same.
-    rows = []
-    with progress("films", len(CONTENDERS)) as advance:
-        for row in measure_films():
-            rows.append(row)
-            advance()
+    chosen = dict.fromkeys(names or _DEFAULT)
+    optics = [name for name in OPTICS if name in chosen or "optics" in chosen]
+    if (peers or plot) and not optics:
+        raise UsageError("--peers and --plot want a workload of reflectances: optics, or one of W1 to W5.")
+    report = _Report()
+    for name in FILMS:
+        if name in chosen:
+            _films(report, name, rounds)
+    if "mirrors" in chosen:
+        _mirrors(report, rounds)
+    if optics:
+        _optics(report, optics, peers, rounds, plot)
     if as_json:
-        print_json({"white": "D65", "rows": [row.to_json() for row in rows]})
+        rows = [row.to_json() for row in report.rows]
+        print_json({"white": "D65", "machine": report.machine, "skipped": report.skipped, "rows": rows})
         return
-    print_table(
-        ("workload", "method", "backend", "ns/eval", "max abs", "ΔE mean", "ΔE p95", "ΔE max"),
-        [
-            (
-                row.workload,
-                row.method,
-                row.backend,
-                f"{row.ns_per_eval:,.0f}",
-                f"{row.max_abs:.2g}",
-                f"{row.delta_e_mean:.3f}",
-                f"{row.delta_e_p95:.3f}",
-                f"{row.delta_e_max:.2f}",
-            )
-            for row in rows
-        ],
-        title="Against spectral truth, D65 white, CIEDE2000",
+    for table in report.tables:
+        table()
+
+
+def _films(report: _Report, name: str, rounds: int | None) -> None:
+    from gltf_iri.bench.films import FILM_ROUNDS, measure_films
+
+    count = rounds or FILM_ROUNDS
+    with progress(name, count) as advance:
+        rows = measure_films(name, count, advance)
+    _add_colours(report, rows, "Films against spectral truth")
+
+
+def _mirrors(report: _Report, rounds: int | None) -> None:
+    from gltf_iri.bench.mirrors import MIRROR_ROUNDS, MIRROR_WORKLOADS, measure_mirrors
+
+    count = rounds or MIRROR_ROUNDS
+    rows: list[ColourRow] = []
+    with progress("mirrors", count * len(MIRROR_WORKLOADS)) as advance:
+        for name in MIRROR_WORKLOADS:
+            rows += measure_mirrors(name, count, advance)
+    _add_colours(report, rows, "Mirrors against spectral truth")
+
+
+def _add_colours(report: _Report, rows: list[ColourRow], title: str) -> None:
+    from gltf_iri.bench.machine import machine
+
+    report.machine.update(machine())
+    report.rows += rows
+    columns = ("workload", "method", "backend", "ns/eval", "max abs", "ΔE mean", "ΔE p95", "ΔE max")
+    cells = [
+        (
+            row.workload,
+            row.label,
+            row.backend,
+            f"{row.ns_per_eval:,.0f}",
+            f"{row.max_abs:.2g}",
+            f"{row.delta_e_mean:.3f}",
+            f"{row.delta_e_p95:.3f}",
+            f"{row.delta_e_max:.2f}",
+        )
+        for row in rows
+    ]
+    report.tables.append(lambda: print_table(columns, cells, title=f"{title}, D65 white, CIEDE2000"))
+
+
+def _optics(
+    report: _Report, names: Sequence[str], peers: bool, rounds: int | None, plot: Path | None
+) -> None:
+    from gltf_iri.bench.timing import one_thread
+
+    with one_thread() as is_pinned:
+        # Imported here: what they load reads the number of threads when it is loaded.
+        from gltf_iri.bench.machine import machine
+        from gltf_iri.bench.optics import OPTICS_ROUNDS, load_peers, measure_optics
+        from gltf_iri.bench.peers import PEERS
+
+        libraries: dict[str, Any] = {}
+        if peers:
+            libraries, report.skipped = load_peers()
+            for name, reason in report.skipped.items():
+                note(f"{name} is left out: {reason}")
+        count = rounds or OPTICS_ROUNDS
+        rows: list[OpticsRow] = []
+        with progress("optics", count * len(names)) as advance:
+            for measured in measure_optics(names, libraries, count, after_round=advance):
+                rows += measured
+        packages = tuple(dict.fromkeys(each.package for each in PEERS)) if peers else ()
+        report.machine.update(machine(packages), threads=1, is_pinned_to_one_core=is_pinned)
+    report.rows += rows
+    report.tables.append(lambda: _print_optics(rows, report.machine))
+    if plot is not None:
+        from gltf_iri.bench.plot import plot_optics
+        from gltf_iri.whole_files import write_whole
+
+        write_whole({plot: plot_optics(rows)})
+
+
+def _print_optics(rows: Iterable[OpticsRow], machine: dict[str, Any]) -> None:
+    columns = (
+        "workload",
+        "method",
+        "backend",
+        "version",
+        "ns/eval",
+        "max abs",
+        "evals",
+        "× peer",
+        "target",
+        "",
     )
+    cells = [
+        (
+            row.workload,
+            row.method,
+            row.backend,
+            row.version,
+            "-" if row.ns_per_eval is None else f"{row.ns_per_eval:,.4g}",
+            "-" if row.max_abs is None else f"{row.max_abs:.1e}",
+            f"{row.evaluations:,}",
+            "-" if row.speedup is None else f"{row.speedup:,.3g}",
+            "-" if row.target is None else f"{row.target:,.0f}",
+            row.remark or _standing(row),
+        )
+        for row in rows
+    ]
+    vectors = {True: "with AVX-512", False: "without AVX-512", None: "AVX-512 unknown"}[machine["avx512"]]
+    title = f"Reflectances against 50 digits, one thread; {machine['processor']}, {vectors}"
+    print_table(columns, cells, title=title)
+
+
+def _standing(row: OpticsRow) -> str:
+    if not row.is_correct:
+        return "wrong"
+    return "the fastest correct peer" if row.is_fastest_correct_peer else ""

@@ -46,6 +46,8 @@ OPENERS = {
     "whole_files.py",  # every file that a user asks for
     "rendering/picture.py",  # encodes into the file that whole_files.py hands it
     "comparison/figures.py",  # encodes into memory
+    "bench/plot.py",  # encodes into memory
+    "bench/machine.py",  # what Linux says of its processor
     "rendering/source.py",  # the program's own shaders
     "colour/observer.py",  # the program's own tables
     "samples/collection.py",  # looks at the index of an earlier collection

@@ -1,0 +1,109 @@
+"""Rows of the workloads that end in a colour: what each contestant takes, and how far it is from truth."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.backends import has_numba
+from gltf_iri.bench.timing import interleaved_ns
+from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.colour.spaces import White
+from gltf_iri.evaluation.film import Film
+from gltf_iri.evaluation.mirror import Mirror
+from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.planning.method import METHODS, ParameterValue
+
+__all__ = ["WHITE", "ColourRow", "Contestant", "Settings", "colour_rows", "registered"]
+
+Float64 = NDArray[np.float64]
+Settings = Mapping[str, ParameterValue]
+
+WHITE: Final[White] = "D65"
+
+
+@dataclass(frozen=True, slots=True)
+class Contestant:
+    """One way to a colour: a method, its backend and its parameters, defaults included."""
+
+    method: str
+    backend: str
+    run: Callable[[], Float64]  # → linear Rec.709, (n, 3)
+    parameters: Settings = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class ColourRow:
+    """One row of the benchmark; errors are against the truth under D65, ΔE is CIEDE2000.
+
+    ns_per_eval is a median, taken in the same rounds as that of every row of its workload.
+    """
+
+    workload: str
+    method: str
+    backend: str
+    parameters: Settings
+    ns_per_eval: float
+    max_abs: float
+    delta_e_mean: float
+    delta_e_p95: float
+    delta_e_max: float
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the row of `bench --json`."""
+        return asdict(self)
+
+    @property
+    def label(self) -> str:
+        """The method with its parameters."""
+        chosen = ", ".join(f"{name} {value}" for name, value in self.parameters.items())
+        return f"{self.method} ({chosen})" if chosen else self.method
+
+
+def registered(
+    method: str, subject: Film | Mirror, settings: Sequence[Settings] = ({},)
+) -> Iterator[Contestant]:
+    """Yield the method called `method` with each of `settings`, on each of its backends that is installed."""
+    for backend in METHODS[method].backends:
+        if backend == "numba" and not has_numba():
+            continue
+        for chosen in settings:
+
+            def run(backend: str = backend, chosen: Settings = chosen) -> Float64:
+                return evaluate(method, subject, white=WHITE, backend=backend, parameters=chosen).rgb
+
+            defaults = {each.name: each.default for each in METHODS[method].parameters}
+            yield Contestant(method, backend, run, {**defaults, **chosen})
+
+
+def colour_rows(
+    workload: str,
+    contestants: Sequence[Contestant],
+    truth: Float64,
+    rounds: int,
+    after_round: Callable[[], None] = lambda: None,
+) -> list[ColourRow]:
+    """Return a row for each contestant; `truth` is (n, 3) linear Rec.709."""
+    times_ns = interleaved_ns([each.run for each in contestants], rounds, after_round)
+    rows = []
+    for contestant, time_ns in zip(contestants, times_ns, strict=True):
+        rgb = contestant.run()
+        delta_e = delta_e_2000(rgb, truth)
+        rows.append(
+            ColourRow(
+                workload,
+                contestant.method,
+                contestant.backend,
+                contestant.parameters,
+                ns_per_eval=time_ns / len(truth),
+                max_abs=float(np.abs(rgb - truth).max()),
+                delta_e_mean=float(delta_e.mean()),
+                delta_e_p95=float(np.percentile(delta_e, 95)),
+                delta_e_max=float(delta_e.max()),
+            )
+        )
+    return rows

@@ -1,0 +1,53 @@
+"""Workload `mirrors`: how far each mirror method is from the truth, and what it costs, by number of cells."""
+
+from __future__ import annotations
+
+import functools
+import time
+from collections.abc import Callable, Iterator
+from typing import Final
+
+from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, Settings, colour_rows, registered
+from gltf_iri.bench.mirror_set import LOW_CONTRAST_CELLS, MIRROR_CELLS, low_contrast_set, mirror_set
+from gltf_iri.evaluation.mirror import Mirror
+from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.planning.method import METHODS, method_names
+
+__all__ = ["MIRROR_ROUNDS", "MIRROR_WORKLOADS", "SETTINGS", "measure_mirrors"]
+
+MIRROR_ROUNDS: Final = 5
+
+MIRROR_WORKLOADS: Final[dict[str, Callable[[], Mirror]]] = {
+    **{f"mirrors-{cells}": functools.partial(mirror_set, cells) for cells in MIRROR_CELLS},
+    **{f"low-contrast-{cells}": functools.partial(low_contrast_set, cells) for cells in LOW_CONTRAST_CELLS},
+}
+
+# What is chosen of a method's parameters, a row each; methods that are not named stand with their defaults.
+SETTINGS: Final[dict[str, tuple[Settings, ...]]] = {
+    "landmarks-sub": (
+        *({"subdivisions": s} for s in (2, 3, 4, 5)),
+        *({"subdivisions": 3, "root_finder": finder} for finder in ("newton-1", "bisect-10")),
+    ),
+}
+
+
+def measure_mirrors(
+    workload: str, rounds: int = MIRROR_ROUNDS, after_round: Callable[[], None] = lambda: None
+) -> list[ColourRow]:
+    """Return one row for each mirror method, its parameters and backends.
+
+    The truth is slow: its time is that of the one run that the others are judged by.
+    """
+    mirror = MIRROR_WORKLOADS[workload]()
+    truth_by = next(name for name in method_names("mirror") if METHODS[name].is_truth)
+    start = time.perf_counter_ns()
+    truth = evaluate(truth_by, mirror, white=WHITE, backend="numpy").rgb
+    truth_ns = (time.perf_counter_ns() - start) / len(truth)
+    rows = colour_rows(workload, list(_contestants(mirror)), truth, rounds, after_round)
+    return [ColourRow(workload, truth_by, "numpy", {}, truth_ns, 0.0, 0.0, 0.0, 0.0), *rows]
+
+
+def _contestants(mirror: Mirror) -> Iterator[Contestant]:
+    for name in method_names("mirror"):
+        if not METHODS[name].is_truth:
+            yield from registered(name, mirror, SETTINGS.get(name, ({},)))
