@@ -44,7 +44,7 @@ def compare(
     plans : one for each material of `model`; the default material's is added where the scene uses it.
     size : width and height in pixels; each pixel is compared, none is sampled for another.
     exposure : in EV; linear light is multiplied by 2^exposure before ΔE2000 and for the pictures.
-    white : of the truth, "D65" or "E".
+    white : of the truth and of the methods that know one, "D65" or "E".
     advance : called after each of STEPS.
 
     Raises UsageError for an unknown white or a method without GLSL, MissingCapabilityError without OpenGL.
@@ -52,9 +52,9 @@ def compare(
     plans = complete_plans(plans, scene)
     arguments = (model, scene, plans, camera, environment)
     has_textures = any(effect.value.endswith("-texture") for plan in plans for effect in plan.effects)
-    fine = renderer.render(*arguments, size=size, float_textures=True, with_inputs=True)
+    fine = renderer.render(*arguments, size=size, float_textures=True, with_inputs=True, white=white)
     advance()
-    coarse = renderer.render(*arguments, size=size, with_inputs=True) if has_textures else None
+    coarse = renderer.render(*arguments, size=size, with_inputs=True, white=white) if has_textures else None
     advance()
     shot = Shot(
         file=model.path.name,

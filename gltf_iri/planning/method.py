@@ -109,8 +109,9 @@ _FILM_METHODS = (
         "Exact Airy reflectance, both polarisations, integrated over the spectrum until it no longer moves.",
         "Belcour & Barla 2017, Eq. 2-3; Airy summation",
         is_truth=True,
-        glsl_function=None,
+        glsl_function="iridescent_fresnel_spectral",
         delta_e_mean=0.0,
+        glsl_tables=("spectral_rule",),
     ),
 )
 

@@ -39,9 +39,12 @@ SPECTRAL_OPD_MAX_NM: Final = SPECTRAL_DEGREE / (2.0 * np.pi * HALF_BANDWIDTH_PER
 
 
 def _spectral_rule(white: White, **parameters: ParameterValue) -> Float32:
-    """Return (1, SPECTRAL_DEGREE + 1, 4): 1/λ in 1/nm, and the weights of the three channels."""
+    """Return (2, SPECTRAL_DEGREE + 1, 3): 1/λ in 1/nm as a part of twelve bits and the rest; the weights."""
     rule = colour_rule(SPECTRAL_DEGREE, white)
-    return np.column_stack([1.0 / rule.wavelength_nm, rule.weights]).astype(np.float32)[None]
+    wavenumber = 1.0 / rule.wavelength_nm
+    leading = (wavenumber.astype(np.float32).view(np.uint32) & np.uint32(0xFFFFF000)).view(np.float32)
+    parts = np.column_stack([leading, wavenumber - leading, np.zeros_like(wavenumber)])
+    return np.stack([parts, rule.weights]).astype(np.float32)
 
 
 OPTICS_TABLES: Final[Mapping[str, TableFill]] = MappingProxyType({"spectral_rule": _spectral_rule})

@@ -9,9 +9,11 @@ from gltf_iri.material.interface import material_textures, material_uniforms
 from gltf_iri.material.material import DEFAULT_MATERIAL, Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.method import find_method
 from gltf_iri.planning.permutation import permutation, primitive_effects
 from gltf_iri.rendering.draw import Draw, Shader
 from gltf_iri.rendering.geometry import GeometryStore, placement_uniforms
+from gltf_iri.rendering.optics_tables import OpticsTableStore
 from gltf_iri.rendering.programs import ProgramStore
 from gltf_iri.rendering.switches import LAYER_INPUTS, SHADING_INPUTS
 from gltf_iri.rendering.textures import TextureStore
@@ -69,8 +71,12 @@ def prepare_draws(
     textures: TextureStore,
     uniforms: Mapping[str, Any],
     light: Mapping[str, moderngl.Texture],
+    tables: OpticsTableStore,
+    white: str,
 ) -> Iterator[Draw]:
     """Yield a draw for each primitive; `uniforms` and `light` are those that all of them share.
+
+    tables, white : what the films' methods sample, and the illuminant that it is made for.
 
     Raises MissingCapabilityError for more or larger textures than OpenGL takes.
     """
@@ -86,4 +92,9 @@ def prepare_draws(
             shaders[target] = Shader(program, geometry.vertex_array(primitive, program))
         own = placement_uniforms(primitive) | {"u_material": slot} | material_uniforms(material, defines)
         sampled = {name: textures.get(b) for name, b in material_textures(material, defines).items()}
+        if plan.method is not None:
+            method = find_method(plan.method)
+            sampled |= tables.textures(
+                method.glsl_tables, white, {p.name: p.default for p in method.parameters}
+            )
         yield Draw(primitive, plan, shaders, {**uniforms, **own}, {**light, **sampled})

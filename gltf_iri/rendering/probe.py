@@ -141,7 +141,9 @@ class Probe:
         textures: dict[str, moderngl.Texture] = {}
         inputs = self._context.buffer(rows.tobytes())
         outputs = self._context.buffer(reserve=rows.shape[0] * _COMPONENTS[result] * 4)
-        array = self._context.vertex_array(program, [(inputs, layout, *(name for name in names if name in program))])
+        array = self._context.vertex_array(
+            program, [(inputs, layout, *(name for name in names if name in program))]
+        )
         try:
             for name, table in tables.items():
                 textures[name] = table_texture(self._context, table)

@@ -20,6 +20,7 @@ from gltf_iri.rendering.draw import Draw, draw_faces, draw_opaque
 from gltf_iri.rendering.frame import INPUT_TARGETS, LAYER_INPUT_TARGETS, Frame
 from gltf_iri.rendering.geometry import GeometryStore
 from gltf_iri.rendering.image_light import ImageLightStore
+from gltf_iri.rendering.optics_tables import OpticsTableStore
 from gltf_iri.rendering.passes import PassTimes
 from gltf_iri.rendering.prepare import (
     FIRST_INPUTS,
@@ -51,12 +52,13 @@ _TARGET_COUNTS: Final = {
 
 
 class Renderer:
-    """Draws with one OpenGL context; keeps programs, the DFG table and prefiltered environments."""
+    """Draws with one OpenGL context; keeps programs, tables and prefiltered environments."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self.context = context
         self._programs = ProgramStore(context)
         self._image_lights = ImageLightStore(context)
+        self._optics_tables = OpticsTableStore(context)
         self._background: Background | None = None
         self._capturing: Capturing | None = None
 
@@ -73,6 +75,7 @@ class Renderer:
         float_textures: bool = False,
         sharp_textures: bool = False,
         with_inputs: bool = False,
+        white: str = "D65",
     ) -> Frame:
         """Return the picture of `scene`; its milliseconds are drawing alone, without uploads and compiling.
 
@@ -88,6 +91,7 @@ class Renderer:
         with_inputs : also return what each pixel's centre was shaded with; the picture then has one sample a
             pixel. In the inputs blended materials are as if opaque, and what light passes through is the
             surface in front: an input belongs to one surface.
+        white : the illuminant, "D65" or "E", under which film methods with a table of it integrate.
 
         Raises UsageError for a size out of range and a method without GLSL, MissingCapabilityError where
         OpenGL takes fewer samples or smaller textures than are needed.
@@ -141,6 +145,8 @@ class Renderer:
                         textures,
                         shared,
                         light,
+                        self._optics_tables,
+                        white,
                     )
                 )
             notes = self._draw_surfaces(draws, targets, camera, size, times)
@@ -181,6 +187,7 @@ class Renderer:
         """Give everything back to OpenGL; the context stays the caller's."""
         self._programs.release()
         self._image_lights.release()
+        self._optics_tables.release()
         for used in (self._background, self._capturing):
             if used is not None:
                 used.release()

@@ -10,6 +10,14 @@
 #include "optics/khr_guarded.glsl"
 #define FILM_FRESNEL iridescent_fresnel_khr_guarded
 #endif
+#ifdef METHOD_SPECTRAL
+#include "optics/spectral.glsl"
+#define FILM_FRESNEL iridescent_fresnel_spectral
+#endif
+#ifdef METHOD_GRANIER_HEIDRICH
+#include "optics/granier_heidrich.glsl"
+#define FILM_FRESNEL iridescent_fresnel_granier_heidrich
+#endif
 
 // Outside is air: KHR_materials_iridescence ignores a clearcoat's interface.
 vec3 film_fresnel(Surface s, vec3 base_f0, float cos_theta) {

@@ -93,7 +93,6 @@ def test_the_method_asked_for_is_used(gl_context, triangle, tmp_path, capsys):
         (["-o", "a.png", "--size", "640"], "640"),
         (["-o", "a.png", "--size", "0x8"], "0 × 8"),
         (["-o", "a.png", "--size", "99999x1"], "99999 × 1"),
-        (["-o", "a.png", "--method", "spectral"], "khr, khr-guarded"),
         (["-o", "a.png", "--method", "magic"], "magic"),
         (["-o", "a.png", "--camera", "2"], "no camera 2"),
         (["-o", "a.png", "--env", "missing.hdr"], "missing.hdr"),

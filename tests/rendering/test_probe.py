@@ -9,6 +9,7 @@ import pytest
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.evaluation.spectral import film_spectrum
 from gltf_iri.rendering.context import renderer_name
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.rendering.source import ShaderError
@@ -66,10 +67,22 @@ def test_member_of_a_struct_is_read(probe: Probe) -> None:
     np.testing.assert_allclose(weight, 0.5, rtol=0, atol=1e-7)
 
 
-@pytest.mark.parametrize(("method", "message"), [("spectral", "khr, khr-guarded"), ("kehr", "kehr")])
-def test_method_without_twin_names_those_that_have_one(probe: Probe, method: str, message: str) -> None:
-    with pytest.raises(UsageError, match=message):
-        probe.evaluate(method, Film.of(0.5, 400.0, 1.3, base_from_f0([0.04] * 3)))
+def test_unknown_method_names_those_that_there_are(probe: Probe) -> None:
+    with pytest.raises(UsageError, match=r"kehr.*khr, khr-guarded"):
+        probe.evaluate("kehr", Film.of(0.5, 400.0, 1.3, base_from_f0([0.04] * 3)))
+
+
+def test_a_table_fills_the_sampler_of_its_name(probe: Probe) -> None:
+    one_wavelength = np.float32([[[1.0 / 512.0, 0.0, 0.0]], [[1.0, 0.0, 0.5]]])
+    film = Film.of(np.float32(0.6), 400.0, 1.5, base_from_f0([0.25] * 3))
+    made = probe.call(
+        "iridescent_fresnel_spectral",
+        "optics/spectral.glsl",
+        [1.0, 1.5, [0.25] * 3, 400.0, 0.6],
+        tables={"spectral_rule": one_wavelength},
+    )
+    reflectance = film_spectrum(film, np.array([512.0]))[:, 0]
+    np.testing.assert_allclose(made, reflectance * [1.0, 0.0, 0.5], rtol=0, atol=1e-6)
 
 
 def test_shapes_that_do_not_go_together_are_refused(probe: Probe) -> None:
