@@ -1,91 +1,127 @@
-"""What the cell of a Bragg mirror does to light, at one angle and any wavelength.
+"""The exact reflectance of a Bragg mirror: N equal cells of two films, under any host, absorbing or not.
 
-A cell is a film n1 of thickness d1, met first, and a film n2 of d2; beyond the last cell lies n1 again.
-Light comes from a host of index n_h. q = n cos θ is a medium's index along the normal; Y = q (s) and
-Y = q/n² (p) are its admittances. Convention exp(−iωt).
+The films of a cell are n1, met first, and n2; beyond the last cell lies n1 again (Fourneau et al. 2024,
+whose Appendix D leaves the exit medium n1). With a host the order of the films is visible. Lossless cells take
+Yeh's closed form (`yeh`), absorbing ones the powers of a complex matrix (`lossy_bragg`).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Final
+from collections.abc import Iterator
+from dataclasses import fields
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gltf_iri.optics.bragg_cell import Cell, cell_optics, frustrated_cell_optics
+from gltf_iri.optics.grid import Grid, Tile
+from gltf_iri.optics.lossy_bragg import lossy_powers
 from gltf_iri.optics.refraction import normal_index_squared
+from gltf_iri.optics.yeh import half_phases, transmittance
 
-__all__ = ["Cell", "cell_optics"]
+__all__ = ["BraggPowers", "Cell", "bragg_powers", "bragg_reflectance", "cell_optics"]
 
 Float64 = NDArray[np.float64]
 
-# Stands for q = 0, light along the films: X = Y₂/Y₁ stays finite, its product with sin k₁d₁ keeps its limit.
-_NO_NORMAL_INDEX: Final = 1e-75
+
+class BraggPowers(NamedTuple):
+    """Shares of the incident power: reflected, carried into the exit medium, absorbed; R + T + A = 1."""
+
+    R_s: Float64
+    R_p: Float64
+    T_s: Float64
+    T_p: Float64
+    A_s: Float64
+    A_p: Float64
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
-    """Constants of a lossless cell that no wavelength changes; each has the arguments' broadcast shape.
-
-    path_1_nm, path_2_nm : q₁d₁ and q₂d₂; a film's phase k_z d is 2π·path/λ.
-    contrast_s, contrast_p : X = Y₂/Y₁.
-    imbalance_s, imbalance_p : ½(X − 1/X), without the cancellation of that difference at n1 ≈ n2.
-    host_r_s, host_r_p : r_h1 = (n_h c_h − n1 c1)/(…) and (n1 c_h − n_h c1)/(…), from the host into n1.
-    host_t_s, host_t_p : 1 − r_h1², without cancellation where r_h1 nears ±1.
-    All are NaN where light does not run in both films (total reflection).
-    """
-
-    path_1_nm: Float64
-    path_2_nm: Float64
-    contrast_s: Float64
-    contrast_p: Float64
-    imbalance_s: Float64
-    imbalance_p: Float64
-    host_r_s: Float64
-    host_r_p: Float64
-    host_t_s: Float64
-    host_t_p: Float64
-
-
-def cell_optics(
+def bragg_reflectance(
     host_ior: ArrayLike,
     n1: ArrayLike,
     n2: ArrayLike,
     d1_nm: ArrayLike,
     d2_nm: ArrayLike,
+    cells: ArrayLike,
+    wavelength_nm: ArrayLike,
     cos_theta_h: ArrayLike,
-) -> Cell:
-    """Return the cell's constants for real indices (Yeh 1988; Fourneau et al. 2024, Eq. 8 and Appendix D)."""
-    host, first, second, d1, d2, c = (
-        np.asarray(a, dtype=np.float64) for a in (host_ior, n1, n2, d1_nm, d2_nm, cos_theta_h)
-    )
-    q_h = np.maximum(host * c, _NO_NORMAL_INDEX)
-    q_1, q_2 = _running(first, host, c), _running(second, host, c)
-    tangential = host * host * ((1.0 - c) * (1.0 + c))  # (n sin θ)², the same in every medium
-    hh, n1n1, n2n2 = host * host, first * first, second * second
-    # Y₂² − Y₁² as a product: q₂² − q₁² = n2² − n1², and for p a factor that vanishes at Brewster's angle
-    imbalance_s = (second - first) * (second + first) / (2.0 * q_1 * q_2)
-    brewster = tangential * (n1n1 + n2n2) / (n1n1 * n2n2) - 1.0
-    sum_s, sum_p = q_h + q_1, n1n1 * q_h + hh * q_1
-    host_r_s = (host - first) * (host + first) / (sum_s * sum_s)
-    brewster_host = (tangential * (n1n1 + hh) - n1n1 * hh) / (sum_p * sum_p)
-    fields = (
-        q_1 * d1,
-        q_2 * d2,
-        q_2 / q_1,
-        (q_2 * n1n1) / (q_1 * n2n2),
-        imbalance_s,
-        imbalance_s * brewster,
-        host_r_s,
-        (host - first) * (host + first) * brewster_host,
-        4.0 * q_h * q_1 / (sum_s * sum_s),
-        4.0 * (n1n1 * q_h) * (hh * q_1) / (sum_p * sum_p),
-    )
-    return Cell(*(np.asarray(each) for each in np.broadcast_arrays(*fields)))
+) -> Float64:
+    """Return the mean of R_s and R_p, in [0, 1]; arrays broadcast, NaN gives NaN.
+
+    host_ior : real; n1, n2 : n + ik, k ≥ 0; cells : whole numbers ≥ 1. Fast where the last axis is that of
+    the wavelengths and every other argument has length 1 there.
+    """
+    grid = Grid(wavelength_nm, (host_ior, n1, n2, d1_nm, d2_nm, cells, cos_theta_h))
+    reflected = grid.zeros()
+    for tile, powers in _lossy_tiles(grid):
+        tile.put(0.5 * (powers.R_s + powers.R_p), reflected)
+    for tile, t_s, t_p in _lossless_tiles(grid):
+        mean = np.add(t_s, t_p, out=t_s)
+        mean *= -0.5
+        mean += 1.0
+        tile.put(mean, reflected)
+    return grid.shaped(reflected)
 
 
-def _running(index: Float64, host_ior: Float64, cos_theta_h: Float64) -> Float64:
-    """Return q in a film, NaN where it is imaginary."""
-    squared = normal_index_squared(index, host_ior, cos_theta_h).real
-    root = np.sqrt(np.where(squared < 0.0, np.nan, squared))
-    return np.asarray(np.maximum(root, _NO_NORMAL_INDEX))
+def bragg_powers(
+    host_ior: ArrayLike,
+    n1: ArrayLike,
+    n2: ArrayLike,
+    d1_nm: ArrayLike,
+    d2_nm: ArrayLike,
+    cells: ArrayLike,
+    wavelength_nm: ArrayLike,
+    cos_theta_h: ArrayLike,
+) -> BraggPowers:
+    """Return R, T and A of both polarisations; arguments as for `bragg_reflectance`.
+
+    T is the flux into the exit medium, 0 where light fades there; A is the flux that enters the cells less T.
+    """
+    grid = Grid(wavelength_nm, (host_ior, n1, n2, d1_nm, d2_nm, cells, cos_theta_h))
+    shares = [grid.zeros() for _ in BraggPowers._fields]
+    for tile, powers in _lossy_tiles(grid):
+        for share, values in zip(shares, powers, strict=True):
+            tile.put(values, share)
+    for tile, t_s, t_p in _lossless_tiles(grid):
+        for share, values in zip(shares, (1.0 - t_s, 1.0 - t_p, t_s, t_p), strict=False):
+            tile.put(values, share)
+    return BraggPowers(*(grid.shaped(share) for share in shares))
+
+
+def _lossy_tiles(grid: Grid) -> Iterator[tuple[Tile, BraggPowers]]:
+    """Yield the tiles whose cells absorb."""
+    host, n1, n2, d1, d2, cells, cosine = grid.columns
+    for tile in grid.tiles(grid.rows_where((n1.imag != 0.0) | (n2.imag != 0.0))):
+        first = (tile.of_rows(a) for a in (host, n1, n2, d1, d2, cells))
+        yield tile, BraggPowers(*lossy_powers(*first, tile.wavelength_nm, tile.of_rows(cosine)))
+
+
+def _lossless_tiles(grid: Grid) -> Iterator[tuple[Tile, Float64, Float64]]:
+    """Yield the tiles whose cells do not absorb, with T_s and T_p."""
+    host, n1, n2, d1, d2, cells, cosine = grid.columns
+    is_lossy = (n1.imag != 0.0) | (n2.imag != 0.0)
+    if is_lossy.all():
+        return
+    cell, is_frustrated = frustrated_cell_optics(host, n1.real, n2.real, d1, d2, cosine)
+    is_total = normal_index_squared(n1.real, host, cosine).real < 0.0
+    has_host = not np.all(host == n1)
+    # One number for all is doubled along its own bits; else every row goes through the bits of the greatest.
+    count = int(cells[0]) if cells.size > 0 and np.all(cells == cells[0]) else None
+    for is_fading in (False, True):
+        for tile in grid.tiles(grid.rows_where(~is_lossy & ~is_total & (is_frustrated == is_fading))):
+            mine = Cell(*(tile.of_rows(getattr(cell, each.name)) for each in fields(cell)))
+            phases = half_phases(mine.path_1_nm, mine.path_2_nm, tile.wavelength_nm, is_frustrated=is_fading)
+            number = tile.of_rows(cells.astype(np.int64)) if count is None else count
+            host_s, host_p = (mine.host_r_s, mine.host_t_s), (mine.host_r_p, mine.host_t_p)
+            with np.errstate(over="ignore"):  # deep in a gap R/T overflows, and T is 0
+                t_s = transmittance(
+                    phases, mine.contrast_s, mine.imbalance_s, number, host_s if has_host else None
+                )
+                t_p = transmittance(
+                    phases, mine.contrast_p, mine.imbalance_p, number, host_p if has_host else None
+                )
+            yield tile, t_s, t_p
+    for tile in grid.tiles(grid.rows_where(~is_lossy & is_total)):
+        # Light fades in n1 and beyond the mirror: all is reflected; only a NaN passes.
+        nothing = 0.0 * (tile.of_rows(n2.real + d1 + d2) * tile.wavelength_nm)
+        yield tile, nothing, nothing.copy()

@@ -1,0 +1,92 @@
+"""Rows × wavelengths, worked through in tiles that fit a core's cache."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+__all__ = ["Grid", "Tile"]
+
+Float64 = NDArray[np.float64]
+Rows = slice | NDArray[np.intp]
+
+_TILE: Final = 8192  # numbers in one temporary: some ten of them share a core's second cache
+
+
+@dataclass(frozen=True, slots=True)
+class Tile:
+    """Some rows at some wavelengths; arrays of a tile are rows × wavelengths, or turned the other way."""
+
+    rows: Rows
+    columns: slice
+    is_turned: bool
+    wavelength_nm: Float64  # 2-D, broadcasts with `of_rows`
+
+    def of_rows(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Return what belongs to the tile's rows of an array (rows,), or (1,) for all, to broadcast in it."""
+        mine = values if values.shape == (1,) else values[self.rows]
+        return mine[None, :] if self.is_turned else mine[:, None]
+
+    def put(self, values: Float64, into: Float64) -> None:
+        """Write the tile's `values` into an array of `Grid.zeros`."""
+        into[self.rows, self.columns] = values.T if self.is_turned else values
+
+
+class Grid:
+    """Arguments that broadcast, as rows × wavelengths: the last axis, where nothing else varies along it.
+
+    Elsewhere every element is a row of one wavelength. `columns` holds the arguments as (rows,) or (1,).
+    """
+
+    def __init__(self, wavelength_nm: ArrayLike, arguments: Sequence[ArrayLike]) -> None:
+        wavelength = np.asarray(wavelength_nm, dtype=np.float64)
+        arrays = [np.asarray(a) for a in arguments]
+        self._shape = np.broadcast_shapes(wavelength.shape, *(a.shape for a in arrays))
+        has_axis = self._shape != () and all(a.shape[-1:] in ((), (1,)) for a in arrays)
+        rows_shape, self._width = (self._shape[:-1], self._shape[-1]) if has_axis else (self._shape, 1)
+        self.count = int(np.prod(rows_shape, dtype=np.intp))
+        self.columns = [_column(a[..., 0] if has_axis and a.ndim > 0 else a, rows_shape) for a in arrays]
+        is_shared = has_axis and wavelength.size == wavelength.shape[-1]
+        spread = wavelength if is_shared else np.broadcast_to(wavelength, self._shape)
+        self._wavelength_nm = spread.reshape(
+            1 if is_shared else self.count, -1 if spread.size else self._width
+        )
+        # The longer axis runs innermost, so that one operation of numpy has many numbers.
+        self._is_turned = is_shared and self.count > self._width
+
+    def zeros(self) -> Float64:
+        """Return an array for a result, rows × wavelengths."""
+        return np.zeros((self.count, self._width), order="F" if self._is_turned else "C")
+
+    def shaped(self, values: Float64) -> Float64:
+        """Return rows × wavelengths in the arguments' broadcast shape."""
+        return values.reshape(self._shape)
+
+    def rows_where(self, mask: NDArray[np.bool_]) -> Rows:
+        """Return the rows where `mask` (rows,) or (1,) holds."""
+        return slice(0, self.count) if mask.all() else np.flatnonzero(np.broadcast_to(mask, (self.count,)))
+
+    def tiles(self, rows: Rows) -> Iterator[Tile]:
+        """Yield tiles that together cover `rows` at every wavelength."""
+        count = self.count if isinstance(rows, slice) else len(rows)
+        inner = count if self._is_turned else self._width
+        long_side = max(1, min(inner, _TILE))
+        short_side = _TILE // long_side
+        row_step, column_step = (long_side, short_side) if self._is_turned else (short_side, long_side)
+        for row in range(0, count, row_step):
+            part = slice(row, min(row + row_step, count))
+            chosen = part if isinstance(rows, slice) else rows[part]
+            for column in range(0, self._width, column_step):
+                columns = slice(column, column + column_step)
+                wavelength = self._wavelength_nm[:, columns]
+                if len(wavelength) > 1:
+                    wavelength = wavelength[chosen]
+                yield Tile(chosen, columns, self._is_turned, wavelength.T if self._is_turned else wavelength)
+
+
+def _column(values: NDArray[Any], rows_shape: tuple[int, ...]) -> NDArray[Any]:
+    return values.reshape(1) if values.size == 1 else np.broadcast_to(values, rows_shape).reshape(-1)
