@@ -16,6 +16,7 @@ from gltf_iri.evaluation.film import Evaluation, Film
 from gltf_iri.evaluation.granier_heidrich import evaluate_granier_heidrich
 from gltf_iri.evaluation.khr import evaluate_khr
 from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
+from gltf_iri.evaluation.landmarks import evaluate_landmarks, evaluate_landmarks_sub
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.spectral import evaluate_spectral
 from gltf_iri.planning.method import ParameterValue, find_method
@@ -32,6 +33,8 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
         "khr-guarded": evaluate_khr_guarded,
         "granier-heidrich": evaluate_granier_heidrich,
         "spectral": evaluate_spectral,
+        "landmarks": evaluate_landmarks,
+        "landmarks-sub": evaluate_landmarks_sub,
     }
 )
 

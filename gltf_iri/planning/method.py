@@ -115,7 +115,40 @@ _FILM_METHODS = (
     ),
 )
 
-_MIRROR_METHODS: tuple[Method, ...] = ()
+_ROOT_FINDER = Parameter(
+    "root_finder",
+    "How landmarks are sought: Newton steps from a closed-form guess, or halvings between modes.",
+    "newton-2",
+    choices=("newton-2", "newton-1", "bisect-10"),
+)
+
+_MIRROR_METHODS: tuple[Method, ...] = (
+    Method(
+        "landmarks",
+        "mirror",
+        "The envelope of many cells in boxes between band-gap edges, Airy and zero points, s and p apart.",
+        "Fourneau et al. 2024, §3.2, Eq. 11-16, Appendices A and B",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=4.29,  # 20 cells
+        parameters=(_ROOT_FINDER,),
+        backends=("numpy", "numba"),
+    ),
+    Method(
+        "landmarks-sub",
+        "mirror",
+        "`landmarks` with each box of the band above gap m cut into max(1, s − m).",
+        "Fourneau et al. 2024, §3.2.2, Approximation quality",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=3.01,  # 20 cells
+        parameters=(
+            Parameter("subdivisions", "s: how finely the first bands are cut.", 3, 2.0, 5.0),
+            _ROOT_FINDER,
+        ),
+        backends=("numpy", "numba"),
+    ),
+)
 
 METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (*_FILM_METHODS, *_MIRROR_METHODS)})
 
