@@ -21,8 +21,10 @@ __all__ = ["stack_power_compiled"]
 
 Float64 = NDArray[np.float64]
 
-_LANES: Final = 128
-_SCALE_EVERY: Final = 4  # as in optics/stack.py
+_L: Final = 128  # lanes: evaluations side by side
+# As in optics/stack.py
+_SCALE_EVERY: Final = 4
+_NOTHING: Final = 1e-300
 
 # ln 2 in two parts, the first of 32 bits, so that whole multiples of it come off without rounding
 _LOG2_E: Final = 1.4426950408889634
@@ -68,73 +70,80 @@ def _row(table: Float64, a: int, b: int) -> Float64:
 
 
 @inline
-def _fill(out: Float64, row: Float64, start: int, count: int) -> None:
+def _fill(out: Float64, first: int, row: Float64, start: int, count: int) -> None:
     if row.size == 1:
         for i in range(count):
-            out[i] = row[0]
+            out[first + i] = row[0]
     else:
         for i in range(count):
-            out[i] = row[start + i]
+            out[first + i] = row[start + i]
 
 
 @loop
 def _powers(media: Float64, paths: Float64, fades: NDArray[np.bool_], powers: Float64) -> None:
-    fields = np.zeros((_FIELDS, _LANES))
-    medium = np.zeros((_MEDIA, _LANES))
-    path = np.zeros(_LANES)
-    wave = np.zeros((6, _LANES))
-    bits = np.zeros(_LANES, np.int64)
-    outside = np.zeros((_MEDIA, _LANES))
+    fields = np.zeros(_FIELDS * _L)
+    medium = np.zeros(_MEDIA * _L)
+    path = np.zeros(_L)
+    wave = np.zeros(6 * _L)
+    bits = np.zeros(_L, np.int64)
+    outside = np.zeros(_MEDIA * _L)
     last = media.shape[0] - 1
     for a in range(powers.shape[1]):
         for b in range(powers.shape[2]):
-            for start in range(0, powers.shape[3], _LANES):
-                count = min(_LANES, powers.shape[3] - start)
+            for start in range(0, powers.shape[3], _L):
+                count = min(_L, powers.shape[3] - start)
                 for part in range(_MEDIA):
-                    _fill(medium[part], _row(media[last, part], a, b), start, count)
-                    _fill(outside[part], _row(media[0, part], a, b), start, count)
+                    _fill(medium, part * _L, _row(media[last, part], a, b), start, count)
+                    _fill(outside, part * _L, _row(media[0, part], a, b), start, count)
                 _start(fields, medium, count)
                 for layer in range(last - 1, 0, -1):
-                    _fill(path, _row(paths[layer - 1, 0], a, b), start, count)
+                    _fill(path, 0, _row(paths[layer - 1, 0], a, b), start, count)
                     if fades[layer]:
                         for part in range(_MEDIA):
-                            _fill(medium[part], _row(media[layer, part], a, b), start, count)
+                            _fill(medium, part * _L, _row(media[layer, part], a, b), start, count)
                         _fading_wave(wave, bits, fields, medium, path, count)
                         _pass_fading(fields, medium, wave, count)
                     else:
                         for part in range(0, _MEDIA, 2):
-                            _fill(medium[part], _row(media[layer, part], a, b), start, count)
+                            _fill(medium, part * _L, _row(media[layer, part], a, b), start, count)
                         _pass_running(fields, medium, path, count)
                     if layer % _SCALE_EVERY == 0:
                         _scale(fields, count)
                 for part in range(_MEDIA):
-                    _fill(medium[part], _row(media[last, part], a, b), start, count)
-                _finish(powers[:, a, b, start : start + count], fields, outside, medium, count)
+                    _fill(medium, part * _L, _row(media[last, part], a, b), start, count)
+                _finish(fields, outside, medium, count)
+                for which in range(4):
+                    powers[which, a, b, start : start + count] = fields[which * _L : which * _L + count]
 
 
 @inline
 def _start(fields: Float64, medium: Float64, count: int) -> None:
     for i in range(count):
-        q_r, q_i, u_r, u_i = medium[_Q, i], medium[_Q + 1, i], medium[_INVERSE, i], medium[_INVERSE + 1, i]
-        fields[0, i], fields[1, i], fields[2, i], fields[3, i] = 1.0, 0.0, q_r, q_i
-        fields[4, i], fields[5, i] = 1.0, 0.0
-        fields[6, i], fields[7, i] = q_r * u_r - q_i * u_i, q_r * u_i + q_i * u_r
-        fields[_THROUGH, i], fields[_THROUGH + 1, i] = 1.0, 1.0
+        q_r, q_i, u_r, u_i = (
+            medium[_Q * _L + i],
+            medium[(_Q + 1) * _L + i],
+            medium[_INVERSE * _L + i],
+            medium[(_INVERSE + 1) * _L + i],
+        )
+        fields[i], fields[_L + i], fields[2 * _L + i], fields[3 * _L + i] = 1.0, 0.0, q_r, q_i
+        fields[4 * _L + i], fields[5 * _L + i] = 1.0, 0.0
+        fields[6 * _L + i], fields[7 * _L + i] = q_r * u_r - q_i * u_i, q_r * u_i + q_i * u_r
+        fields[_THROUGH * _L + i], fields[(_THROUGH + 1) * _L + i] = 1.0, 1.0
 
 
 @inline
 def _pass_running(fields: Float64, medium: Float64, path: Float64, count: int) -> None:
     for i in range(count):
-        sine, cosine = sincos_turns(path[i] * medium[_Q, i])
-        forward = sine * medium[_OVER_Q, i] if medium[_Q, i] != 0.0 else 2.0 * np.pi * path[i]
-        backward = sine * medium[_Q, i]
-        E_r, E_i, G_r, G_i = fields[0, i], fields[1, i], fields[2, i], fields[3, i]
-        fields[0, i], fields[1, i] = cosine * E_r + forward * G_i, cosine * E_i - forward * G_r
-        fields[2, i], fields[3, i] = cosine * G_r + backward * E_i, cosine * G_i - backward * E_r
-        forward, backward = forward * medium[_EPSILON, i], backward * medium[_INVERSE, i]
-        E_r, E_i, G_r, G_i = fields[4, i], fields[5, i], fields[6, i], fields[7, i]
-        fields[4, i], fields[5, i] = cosine * E_r + forward * G_i, cosine * E_i - forward * G_r
-        fields[6, i], fields[7, i] = cosine * G_r + backward * E_i, cosine * G_i - backward * E_r
+        sine, cosine = sincos_turns(path[i] * medium[_Q * _L + i])
+        forward = sine * medium[_OVER_Q * _L + i] if medium[_Q * _L + i] != 0.0 else 2.0 * np.pi * path[i]
+        backward = sine * medium[_Q * _L + i]
+        E_r, E_i, G_r, G_i = fields[i], fields[_L + i], fields[2 * _L + i], fields[3 * _L + i]
+        fields[i], fields[_L + i] = cosine * E_r + forward * G_i, cosine * E_i - forward * G_r
+        fields[2 * _L + i], fields[3 * _L + i] = cosine * G_r + backward * E_i, cosine * G_i - backward * E_r
+        forward, backward = forward * medium[_EPSILON * _L + i], backward * medium[_INVERSE * _L + i]
+        E_r, E_i, G_r, G_i = fields[4 * _L + i], fields[5 * _L + i], fields[6 * _L + i], fields[7 * _L + i]
+        fields[4 * _L + i], fields[5 * _L + i] = cosine * E_r + forward * G_i, cosine * E_i - forward * G_r
+        fields[6 * _L + i], fields[7 * _L + i] = cosine * G_r + backward * E_i, cosine * G_i - backward * E_r
 
 
 @inline
@@ -143,14 +152,14 @@ def _fading_wave(
 ) -> None:
     """Set cos β, −i sin β/q and −iq sin β, all times e^{−Im β}; take e^{−2 Im β} into what comes through."""
     for i in range(count):
-        twice = 4.0 * np.pi * path[i] * medium[_Q + 1, i]
+        twice = 4.0 * np.pi * path[i] * medium[(_Q + 1) * _L + i]
         twice = _FADED if twice > _FADED else twice
-        wave[0, i] = twice
+        wave[i] = twice
         bits[i] = np.int64(1023.0 - np.rint(_LOG2_E * twice)) << 52  # a power of two, by its exponent
     powers_of_two = bits.view(np.float64)
     for i in range(count):
-        whole = np.rint(_LOG2_E * wave[0, i])
-        r = (whole * _LN2_HIGH - wave[0, i]) + whole * _LN2_LOW
+        whole = np.rint(_LOG2_E * wave[i])
+        r = (whole * _LN2_HIGH - wave[i]) + whole * _LN2_LOW
         # e^r − 1, cut after r¹³/13!, to 2e-17 of itself where |r| ≤ ½ ln 2
         low = r * (1 / 479001600 + r * (1 / 6227020800))
         low = r * (1 / 3628800 + r * (1 / 39916800 + low))
@@ -162,37 +171,44 @@ def _fading_wave(
         decay_squared = scale + scale * low
         odd = -0.5 * ((scale - 1.0) + scale * low)
         even = 0.5 * (1.0 + decay_squared)
-        sine, cosine = sincos_turns(path[i] * medium[_Q, i])
-        wave[0, i], wave[1, i] = cosine * even, -sine * odd
+        sine, cosine = sincos_turns(path[i] * medium[_Q * _L + i])
+        wave[i], wave[_L + i] = cosine * even, -sine * odd
         s_r, s_i = sine * even, cosine * odd
-        o_r, o_i = medium[_OVER_Q, i], medium[_OVER_Q + 1, i]
+        o_r, o_i = medium[_OVER_Q * _L + i], medium[(_OVER_Q + 1) * _L + i]
         is_flat = (o_r == 0.0) & (o_i == 0.0)
-        wave[2, i] = s_r * o_i + s_i * o_r
-        wave[3, i] = -2.0 * np.pi * path[i] if is_flat else s_i * o_i - s_r * o_r
-        q_r, q_i = medium[_Q, i], medium[_Q + 1, i]
-        wave[4, i], wave[5, i] = s_r * q_i + s_i * q_r, s_i * q_i - s_r * q_r
-        fields[_THROUGH, i] *= decay_squared
-        fields[_THROUGH + 1, i] *= decay_squared
+        wave[2 * _L + i] = s_r * o_i + s_i * o_r
+        wave[3 * _L + i] = -2.0 * np.pi * path[i] if is_flat else s_i * o_i - s_r * o_r
+        q_r, q_i = medium[_Q * _L + i], medium[(_Q + 1) * _L + i]
+        wave[4 * _L + i], wave[5 * _L + i] = s_r * q_i + s_i * q_r, s_i * q_i - s_r * q_r
+        fields[_THROUGH * _L + i] *= decay_squared
+        fields[(_THROUGH + 1) * _L + i] *= decay_squared
 
 
 @inline
 def _pass_fading(fields: Float64, medium: Float64, wave: Float64, count: int) -> None:
     for i in range(count):
-        c_r, c_i, f_r, f_i, b_r, b_i = wave[0, i], wave[1, i], wave[2, i], wave[3, i], wave[4, i], wave[5, i]
-        E_r, E_i, G_r, G_i = fields[0, i], fields[1, i], fields[2, i], fields[3, i]
-        fields[0, i] = (c_r * E_r - c_i * E_i) + (f_r * G_r - f_i * G_i)
-        fields[1, i] = (c_r * E_i + c_i * E_r) + (f_r * G_i + f_i * G_r)
-        fields[2, i] = (c_r * G_r - c_i * G_i) + (b_r * E_r - b_i * E_i)
-        fields[3, i] = (c_r * G_i + c_i * G_r) + (b_r * E_i + b_i * E_r)
-        d_r, d_i = medium[_EPSILON, i], medium[_EPSILON + 1, i]
-        u_r, u_i = medium[_INVERSE, i], medium[_INVERSE + 1, i]
+        c_r, c_i, f_r, f_i, b_r, b_i = (
+            wave[i],
+            wave[_L + i],
+            wave[2 * _L + i],
+            wave[3 * _L + i],
+            wave[4 * _L + i],
+            wave[5 * _L + i],
+        )
+        E_r, E_i, G_r, G_i = fields[i], fields[_L + i], fields[2 * _L + i], fields[3 * _L + i]
+        fields[i] = (c_r * E_r - c_i * E_i) + (f_r * G_r - f_i * G_i)
+        fields[_L + i] = (c_r * E_i + c_i * E_r) + (f_r * G_i + f_i * G_r)
+        fields[2 * _L + i] = (c_r * G_r - c_i * G_i) + (b_r * E_r - b_i * E_i)
+        fields[3 * _L + i] = (c_r * G_i + c_i * G_r) + (b_r * E_i + b_i * E_r)
+        d_r, d_i = medium[_EPSILON * _L + i], medium[(_EPSILON + 1) * _L + i]
+        u_r, u_i = medium[_INVERSE * _L + i], medium[(_INVERSE + 1) * _L + i]
         f_r, f_i = d_r * f_r - d_i * f_i, d_r * f_i + d_i * f_r
         b_r, b_i = u_r * b_r - u_i * b_i, u_r * b_i + u_i * b_r
-        E_r, E_i, G_r, G_i = fields[4, i], fields[5, i], fields[6, i], fields[7, i]
-        fields[4, i] = (c_r * E_r - c_i * E_i) + (f_r * G_r - f_i * G_i)
-        fields[5, i] = (c_r * E_i + c_i * E_r) + (f_r * G_i + f_i * G_r)
-        fields[6, i] = (c_r * G_r - c_i * G_i) + (b_r * E_r - b_i * E_i)
-        fields[7, i] = (c_r * G_i + c_i * G_r) + (b_r * E_i + b_i * E_r)
+        E_r, E_i, G_r, G_i = fields[4 * _L + i], fields[5 * _L + i], fields[6 * _L + i], fields[7 * _L + i]
+        fields[4 * _L + i] = (c_r * E_r - c_i * E_i) + (f_r * G_r - f_i * G_i)
+        fields[5 * _L + i] = (c_r * E_i + c_i * E_r) + (f_r * G_i + f_i * G_r)
+        fields[6 * _L + i] = (c_r * G_r - c_i * G_i) + (b_r * E_r - b_i * E_i)
+        fields[7 * _L + i] = (c_r * G_i + c_i * G_r) + (b_r * E_i + b_i * E_r)
 
 
 @inline
@@ -200,35 +216,48 @@ def _scale(fields: Float64, count: int) -> None:
     for first in (0, 4):
         through = _THROUGH + first // 4
         for i in range(count):
-            electric = max(abs(fields[first, i]), abs(fields[first + 1, i]))
-            scale = 1.0 / max(electric, max(abs(fields[first + 2, i]), abs(fields[first + 3, i])))
+            electric = max(abs(fields[first * _L + i]), abs(fields[(first + 1) * _L + i]))
+            scale = 1.0 / max(
+                electric, max(abs(fields[(first + 2) * _L + i]), abs(fields[(first + 3) * _L + i]))
+            )
             for part in range(4):
-                fields[first + part, i] *= scale
-            fields[through, i] *= scale * scale
+                fields[(first + part) * _L + i] *= scale
+            fields[through * _L + i] *= scale * scale
 
 
 @inline
-def _finish(powers: Float64, fields: Float64, outside: Float64, medium: Float64, count: int) -> None:
-    for first in (0, 4):
-        is_p = first == 4
-        for i in range(count):
-            y_1 = outside[_Q, i] * (outside[_INVERSE, i] if is_p else 1.0)
-            y_3 = medium[_Q, i]
-            if is_p:
-                y_3 = y_3 * medium[_INVERSE, i] - medium[_Q + 1, i] * medium[_INVERSE + 1, i]
-            E_r, E_i, G_r, G_i = (
-                fields[first, i],
-                fields[first + 1, i],
-                fields[first + 2, i],
-                fields[first + 3, i],
-            )
-            t_r, t_i, o_r, o_i = y_1 * E_r + G_r, y_1 * E_i + G_i, y_1 * E_r - G_r, y_1 * E_i - G_i
-            size = max(abs(t_r), abs(t_i))
-            is_nothing = size == 0.0
-            size = 1.0 if is_nothing else size
-            t_r, t_i, o_r, o_i = t_r / size, t_i / size, o_r / size, o_i / size
-            length = 1.0 if is_nothing else t_r * t_r + t_i * t_i
-            R = (o_r * o_r + o_i * o_i) / length
-            T = 4.0 * (y_1 / size) / length / size * fields[_THROUGH + first // 4, i] * y_3
-            powers[first // 4, i] = 0.0 if is_nothing else (1.0 if R > 1.0 else R)
-            powers[2 + first // 4, i] = 1.0 if is_nothing else T
+def _finish(fields: Float64, outside: Float64, medium: Float64, count: int) -> None:
+    """Set R_s, R_p, T_s and T_p in place of the first fields."""
+    for i in range(count):
+        y_1, y_3 = outside[i], medium[i]
+        R_s, T_s = _powers_of(
+            y_1, y_3, fields[i], fields[_L + i], fields[2 * _L + i], fields[3 * _L + i], fields[8 * _L + i]
+        )
+        y_1 = y_1 * outside[_INVERSE * _L + i]
+        y_3 = y_3 * medium[_INVERSE * _L + i] - medium[_L + i] * medium[(_INVERSE + 1) * _L + i]
+        R_p, T_p = _powers_of(
+            y_1,
+            y_3,
+            fields[4 * _L + i],
+            fields[5 * _L + i],
+            fields[6 * _L + i],
+            fields[7 * _L + i],
+            fields[9 * _L + i],
+        )
+        fields[i], fields[_L + i], fields[2 * _L + i], fields[3 * _L + i] = R_s, R_p, T_s, T_p
+
+
+@inline
+def _powers_of(
+    y_1: float, y_3: float, E_r: float, E_i: float, G_r: float, G_i: float, through: float
+) -> tuple[float, float]:
+    t_r, t_i, o_r, o_i = y_1 * E_r + G_r, y_1 * E_i + G_i, y_1 * E_r - G_r, y_1 * E_i - G_i
+    size = max(abs(t_r), abs(t_i))
+    is_nothing = size < _NOTHING
+    shrink = 1.0 / (1.0 if is_nothing else size)
+    t_r, t_i, o_r, o_i = t_r * shrink, t_i * shrink, o_r * shrink, o_i * shrink
+    share = 1.0 / (1.0 if is_nothing else t_r * t_r + t_i * t_i)
+    R = (o_r * o_r + o_i * o_i) * share
+    T = 4.0 * (y_1 * shrink) * share * shrink * through * y_3
+    R = 1.0 if R > 1.0 else R
+    return 0.0 if is_nothing else R, 1.0 if is_nothing else T

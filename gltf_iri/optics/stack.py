@@ -31,6 +31,7 @@ Float64 = NDArray[np.float64]
 Complex128 = NDArray[np.complex128]
 
 _GRAZING: Final = 1e-150  # a smaller cosine is none: its square, and those of q, would lose their digits
+_NOTHING: Final = 1e-300  # fields at the top, smaller than any light and index gives
 _NO_NORMAL_INDEX: Final = 1e-280  # |q|², below which sin β/q is its limit to the last bit
 
 # Layers between two scalings of the fields, which a layer of an index up to 1e6 raises by 1e22 at most.
@@ -251,17 +252,17 @@ def _entry(y_1: Float64, E: Complex128, G: Complex128) -> tuple[Float64, Float64
     """Return R, 4Y₁/|Y₁E + G|², and where there is nothing that could reflect.
 
     The second makes |field|² a share of the incident power. Nothing is there only for grazing light on media
-    that all match.
+    that all match, but for layers thinner than 1e-300 wavelengths.
     """
     total, other = y_1 * E + G, y_1 * E - G
-    # Squares of the smallest fields underflow: grazing light, and layers of almost no thickness.
+    # Squares of the smallest fields would underflow: those of grazing light, and of hardly any layer.
     size = np.maximum(np.abs(total.real), np.abs(total.imag))
-    is_nothing = size == 0.0
-    safe = np.where(is_nothing, 1.0, size)
-    length = np.where(is_nothing, 1.0, _squared_over(total, safe))
+    is_nothing = size < _NOTHING
+    shrink = 1.0 / np.where(is_nothing, 1.0, size)
+    share = 1.0 / np.where(is_nothing, 1.0, _squared(total * shrink))
     # A last bit above 1 is rounding, where all is reflected.
-    R = np.minimum(_squared_over(other, safe) / length, 1.0)
-    return R, 4.0 * (y_1 / safe) / length / safe, is_nothing
+    R = np.minimum(_squared(other * shrink) * share, 1.0)
+    return np.where(is_nothing, 0.0, R), 4.0 * (y_1 * shrink) * share * shrink, is_nothing
 
 
 def _largest(E: Complex128, G: Complex128) -> Float64:
@@ -271,11 +272,6 @@ def _largest(E: Complex128, G: Complex128) -> Float64:
 
 def _squared(z: Complex128) -> Float64:
     return np.asarray(z.real * z.real + z.imag * z.imag)
-
-
-def _squared_over(z: Complex128, size: Float64) -> Float64:
-    # Part by part: a complex quotient would form 1/size, which overflows for the smallest sizes.
-    return np.asarray((z.real / size) ** 2 + (z.imag / size) ** 2)
 
 
 def _filled(values: Float64, shape: tuple[int, ...]) -> Float64:
