@@ -19,6 +19,7 @@ from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
 from gltf_iri.evaluation.landmarks import evaluate_landmarks, evaluate_landmarks_sub
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.spectral import evaluate_spectral
+from gltf_iri.evaluation.yeh_spectral import evaluate_yeh_spectral
 from gltf_iri.planning.method import ParameterValue, find_method
 
 __all__ = ["EVALUATORS", "Evaluator", "evaluate"]
@@ -33,6 +34,7 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
         "khr-guarded": evaluate_khr_guarded,
         "granier-heidrich": evaluate_granier_heidrich,
         "spectral": evaluate_spectral,
+        "yeh-spectral": evaluate_yeh_spectral,
         "landmarks": evaluate_landmarks,
         "landmarks-sub": evaluate_landmarks_sub,
     }

@@ -1,8 +1,8 @@
 """The exact reflectance of a Bragg mirror: N equal cells of two films, under any host, absorbing or not.
 
 The films of a cell are n1, met first, and n2; beyond the last cell lies n1 again (Fourneau et al. 2024,
-whose Appendix D leaves the exit medium n1). With a host the order of the films is visible. Lossless cells take
-Yeh's closed form (`yeh`), absorbing ones the powers of a complex matrix (`lossy_bragg`).
+whose Appendix D leaves the exit medium n1). With a host the order of the films is visible. Lossless cells
+take Yeh's closed form (`yeh`), absorbing ones the powers of a complex matrix (`lossy_bragg`).
 """
 
 from __future__ import annotations
@@ -92,8 +92,11 @@ def _lossy_tiles(grid: Grid) -> Iterator[tuple[Tile, BraggPowers]]:
     """Yield the tiles whose cells absorb."""
     host, n1, n2, d1, d2, cells, cosine = grid.columns
     for tile in grid.tiles(grid.rows_where((n1.imag != 0.0) | (n2.imag != 0.0))):
-        first = (tile.of_rows(a) for a in (host, n1, n2, d1, d2, cells))
-        yield tile, BraggPowers(*lossy_powers(*first, tile.wavelength_nm, tile.of_rows(cosine)))
+        of = tile.of_rows
+        shares = lossy_powers(
+            of(host), of(n1), of(n2), of(d1), of(d2), of(cells), tile.wavelength_nm, of(cosine)
+        )
+        yield tile, BraggPowers(*shares)
 
 
 def _lossless_tiles(grid: Grid) -> Iterator[tuple[Tile, Float64, Float64]]:

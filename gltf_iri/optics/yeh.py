@@ -5,8 +5,8 @@ With t = tan ½φ of the films' phases φ = k_z d, X = Y₂/Y₁ and x = cos KΛ
     (1 − x)/2 = cos²½φ₁ cos²½φ₂ (t₁ + X t₂)(t₁ + t₂/X),   (1 + x)/2 = cos²½φ₁ cos²½φ₂ (1/X − t₁t₂)(X − t₁t₂):
 
 each factor vanishes at the band edges of one kind of standing wave, so no digits cancel there, and 1 − x²
-is a product too. With U = U_{N−1}(x) and T = T_N(x) (`chebyshev_u`), g = ½(X − 1/X) sin φ₂ and r = r_h1 from a
-host into n1, the reflected light is F times the transmitted (Eq. 2 and 9, and Appendix D),
+is a product too. With U = U_{N−1}(x) and T = T_N(x) (`chebyshev_u`), g = ½(X − 1/X) sin φ₂ and r = r_h1
+from a host into n1, the reflected light is F times the transmitted (Eq. 2 and 9, and Appendix D),
 
     F = g²U² without a host,   (1 − r²)F = (rT − gU sin φ₁)² + U²(rσ − g cos φ₁)² with one,
     σ = sin φ₁ cos φ₂ + ½(X + 1/X) cos φ₁ sin φ₂,

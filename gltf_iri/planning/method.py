@@ -124,6 +124,15 @@ _ROOT_FINDER = Parameter(
 
 _MIRROR_METHODS: tuple[Method, ...] = (
     Method(
+        "yeh-spectral",
+        "mirror",
+        "Exact reflectance of the cells, both polarisations, integrated over the spectrum until it settles.",
+        "Yeh 1988; Fourneau et al. 2024, Eq. 2-9, Appendix D",
+        is_truth=True,
+        glsl_function=None,
+        delta_e_mean=0.0,
+    ),
+    Method(
         "landmarks",
         "mirror",
         "The envelope of many cells in boxes between band-gap edges, Airy and zero points, s and p apart.",
