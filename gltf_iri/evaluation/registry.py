@@ -18,6 +18,8 @@ from gltf_iri.evaluation.khr import evaluate_khr
 from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
 from gltf_iri.evaluation.landmarks import evaluate_landmarks, evaluate_landmarks_sub
 from gltf_iri.evaluation.mirror import Mirror
+from gltf_iri.evaluation.naive_rgb import evaluate_naive_rgb
+from gltf_iri.evaluation.smits_meyer import evaluate_smits_meyer
 from gltf_iri.evaluation.spectral import evaluate_spectral
 from gltf_iri.evaluation.yeh_spectral import evaluate_yeh_spectral
 from gltf_iri.planning.method import ParameterValue, find_method
@@ -33,6 +35,8 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
         "khr": evaluate_khr,
         "khr-guarded": evaluate_khr_guarded,
         "granier-heidrich": evaluate_granier_heidrich,
+        "naive-rgb": evaluate_naive_rgb,
+        "smits-meyer": evaluate_smits_meyer,
         "spectral": evaluate_spectral,
         "yeh-spectral": evaluate_yeh_spectral,
         "landmarks": evaluate_landmarks,

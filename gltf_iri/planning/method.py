@@ -104,6 +104,29 @@ _FILM_METHODS = (
         delta_e_mean=47.6,
     ),
     Method(
+        "naive-rgb",
+        "film",
+        "Exact Airy reflectance at one wavelength a channel, the peaks of Rec.709's weights under D65.",
+        "Belcour & Barla 2017, §4.1, Fig. 7a",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=2.79,
+        parameters=(
+            Parameter("red_nm", "The wavelength that stands for red.", 605.0, 360.0, 830.0),
+            Parameter("green_nm", "The wavelength that stands for green.", 535.0, 360.0, 830.0),
+            Parameter("blue_nm", "The wavelength that stands for blue.", 450.0, 360.0, 830.0),
+        ),
+    ),
+    Method(
+        "smits-meyer",
+        "film",
+        "Two beams of unpolarised Fresnel reflectances, no inter-reflections, no conductor; dense spectrum.",
+        "Smits & Meyer 1992, as described in Belcour & Barla 2017, §2 and §4.1",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=2.99,
+    ),
+    Method(
         "spectral",
         "film",
         "Exact Airy reflectance, both polarisations, integrated over the spectrum until it no longer moves.",
@@ -138,8 +161,9 @@ _MIRROR_METHODS: tuple[Method, ...] = (
         "The envelope of many cells in boxes between band-gap edges, Airy and zero points, s and p apart.",
         "Fourneau et al. 2024, §3.2, Eq. 11-16, Appendices A and B",
         is_truth=False,
-        glsl_function=None,
+        glsl_function="bragg_reflectance_landmarks",
         delta_e_mean=4.29,  # 20 cells
+        glsl_tables=("cumulative_colour",),
         parameters=(_ROOT_FINDER,),
         backends=("numpy", "numba"),
     ),
@@ -149,8 +173,9 @@ _MIRROR_METHODS: tuple[Method, ...] = (
         "`landmarks` with each box of the band above gap m cut into max(1, s − m).",
         "Fourneau et al. 2024, §3.2.2, Approximation quality",
         is_truth=False,
-        glsl_function=None,
+        glsl_function="bragg_reflectance_landmarks_sub",
         delta_e_mean=3.01,  # 20 cells
+        glsl_tables=("cumulative_colour",),
         parameters=(
             Parameter("subdivisions", "s: how finely the first bands are cut.", 3, 2.0, 5.0),
             _ROOT_FINDER,
