@@ -9,34 +9,28 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Final, Literal
+from typing import TYPE_CHECKING, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.errors import UsageError
-from gltf_iri.evaluation.film import Evaluation, Film, base_from_f0
+from gltf_iri.evaluation.film import Evaluation, Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.method import METHODS, ParameterValue, find_method
+from gltf_iri.planning.method import ParameterValue
 from gltf_iri.rendering.context import renderer_name
-from gltf_iri.rendering.optics_tables import optics_table, table_texture
+from gltf_iri.rendering.optics_tables import table_texture
 from gltf_iri.rendering.source import ShaderSource, assemble_text, build_program
+from gltf_iri.rendering.twins import COMPONENTS, ResultType, find_twin
 from gltf_iri.rendering.uniforms import bind
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["Probe", "ResultType", "probe_source"]
+__all__ = ["Probe", "probe_source"]
 
-ResultType = Literal["float", "vec3"]
 Float32 = NDArray[np.float32]
-
-_COMPONENTS: dict[ResultType, int] = {"float": 1, "vec3": 3}
-
-# What the twins take, in this order.
-_FILM_TYPES: Final[tuple[ResultType, ...]] = ("float", "float", "vec3", "float", "float")
-_MIRROR_TYPES: Final[tuple[ResultType, ...]] = ("float",) * 7
 
 # Methods whose text leaves values undefined; Python lists the rows, GLSL cannot.
 _WITH_UNDEFINED_CASES: Final = frozenset({"khr"})
@@ -66,21 +60,15 @@ class Probe:
         listed by the Python twin. Raises UsageError where the method, the white or a parameter is unknown,
         the method has no GLSL twin, and for what no twin computes: a mirror whose cells absorb.
         """
-        descriptor = find_method(method, "mirror" if isinstance(subject, Mirror) else "film")
-        function = descriptor.glsl_function
-        if function is None:
-            having = ", ".join(
-                name for name, m in METHODS.items() if m.glsl_function and m.domain == descriptor.domain
-            )
-            raise UsageError(f"The method '{method}' has no GLSL twin; those that have one: {having}.")
-        named = evaluate(method, _small(subject), white=white, parameters=parameters)
+        twin = find_twin(method, subject, white, parameters)
         rgb = self.call(
-            function,
-            f"optics/{method.replace('-', '_')}.glsl",
-            _arguments(subject),
-            argument_types=_MIRROR_TYPES if isinstance(subject, Mirror) else _FILM_TYPES,
-            tables={table: optics_table(table, white, named.parameters) for table in descriptor.glsl_tables},
+            twin.function,
+            twin.include,
+            twin.arguments,
+            argument_types=twin.types,
+            tables=twin.tables,
         )
+        named = twin.blank
         if method in _WITH_UNDEFINED_CASES:
             named = evaluate(method, subject, white=white, parameters=parameters)
         return replace(named, rgb=rgb.astype(np.float64), backend=renderer_name(self._context))
@@ -112,7 +100,7 @@ class Probe:
         types = argument_types or ["vec3" if a.shape[-1:] == (3,) else "float" for a in arrays]
         shape = _row_shape(arrays, types)
         rows = [
-            np.broadcast_to(a, (*shape, 3) if t == "vec3" else shape).reshape(-1, _COMPONENTS[t])
+            np.broadcast_to(a, (*shape, 3) if t == "vec3" else shape).reshape(-1, COMPONENTS[t])
             for a, t in zip(arrays, types, strict=True)
         ]
         source = probe_source(function, include, types, result, member)
@@ -131,16 +119,16 @@ class Probe:
             self._programs[source] = build_program(self._context, source, varyings=("probe_result",))
         program = self._programs[source]
         if rows.shape[0] == 0:
-            return np.zeros((0, _COMPONENTS[result]), dtype=np.float32)
+            return np.zeros((0, COMPONENTS[result]), dtype=np.float32)
         # A compiler removes an attribute on which nothing depends: its bytes are skipped.
         names = [f"a{i}" for i in range(len(types))]
         layout = " ".join(
-            f"{_COMPONENTS[t]}f" if name in program else f"{4 * _COMPONENTS[t]}x"
+            f"{COMPONENTS[t]}f" if name in program else f"{4 * COMPONENTS[t]}x"
             for name, t in zip(names, types, strict=True)
         )
         textures: dict[str, moderngl.Texture] = {}
         inputs = self._context.buffer(rows.tobytes())
-        outputs = self._context.buffer(reserve=rows.shape[0] * _COMPONENTS[result] * 4)
+        outputs = self._context.buffer(reserve=rows.shape[0] * COMPONENTS[result] * 4)
         array = self._context.vertex_array(
             program, [(inputs, layout, *(name for name in names if name in program))]
         )
@@ -173,25 +161,6 @@ def probe_source(
         "}",
     ]
     return assemble_text("\n".join(lines), f"probe of {function}")
-
-
-def _arguments(subject: Film | Mirror) -> list[NDArray[np.float64]]:
-    """Return what the twins take, in their order; UsageError for cells that absorb."""
-    if isinstance(subject, Film):
-        film = subject
-        return [film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1]
-    if not subject.is_lossless:
-        raise UsageError("The GLSL twins of mirror methods know lossless cells only: leave k out.")
-    cells = subject.cells.astype(np.float64)
-    films = [subject.n1.real, subject.n2.real, subject.d1_nm, subject.d2_nm]
-    return [subject.host_ior, *films, cells, subject.cos_theta_h]
-
-
-def _small(subject: Film | Mirror) -> Film | Mirror:
-    """Return one film or mirror, on which Python checks names and ranges in no time."""
-    if isinstance(subject, Film):
-        return Film.of(1.0, 100.0, 1.3, base_from_f0([0.04] * 3))
-    return Mirror.of(1.0, 1.0, 1.5, 100.0, 100.0, 5)
 
 
 def _row_shape(arrays: Sequence[Float32], types: Sequence[ResultType]) -> tuple[int, ...]:

@@ -1,0 +1,25 @@
+"""Timed twins are those that were asked for, and what is drawn is the function on the subject's rows."""
+
+from __future__ import annotations
+
+import moderngl
+import pytest
+
+from gltf_iri.bench.film_set import film_set
+from gltf_iri.errors import UsageError
+from gltf_iri.rendering.context import renderer_name
+from gltf_iri.rendering.timing import time_twins
+
+
+def test_each_method_has_its_time_on_this_renderer(gl_context: moderngl.Context) -> None:
+    times = time_twins(gl_context, ("khr", "spectral"), film_set(8), rounds=3, side=64)
+    assert times.renderer == renderer_name(gl_context)
+    assert list(times.ns_per_eval) == ["khr", "spectral"]
+    # Five hundred wavelengths cost more than one formula, whatever draws them.
+    assert times.ns_per_eval["spectral"] > times.ns_per_eval["khr"]
+    assert times.baseline_ns > 0.0
+
+
+def test_a_method_without_a_twin_is_not_timed(gl_context: moderngl.Context) -> None:
+    with pytest.raises(UsageError, match="kehr"):
+        time_twins(gl_context, ("kehr",), film_set(8), side=8)
