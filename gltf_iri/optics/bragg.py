@@ -8,7 +8,6 @@ take Yeh's closed form (`yeh`), absorbing ones the powers of a complex matrix (`
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +17,7 @@ from gltf_iri.optics.bragg_cell import Cell, cell_optics, frustrated_cell_optics
 from gltf_iri.optics.grid import Grid, Tile
 from gltf_iri.optics.lossy_bragg import lossy_powers
 from gltf_iri.optics.refraction import normal_index_squared
-from gltf_iri.optics.yeh import half_phases, transmittance
+from gltf_iri.optics.yeh import SCRATCH_ARRAYS, half_phases, transmittance
 
 __all__ = ["BraggPowers", "Cell", "bragg_powers", "bragg_reflectance", "cell_optics"]
 
@@ -51,7 +50,7 @@ def bragg_reflectance(
     host_ior : real; n1, n2 : n + ik, k ≥ 0; cells : whole numbers ≥ 1. Fast where the last axis is that of
     the wavelengths and every other argument has length 1 there.
     """
-    grid = Grid(wavelength_nm, (host_ior, n1, n2, d1_nm, d2_nm, cells, cos_theta_h))
+    grid = Grid(wavelength_nm, (host_ior, n1, n2, d1_nm, d2_nm, cells, cos_theta_h), SCRATCH_ARRAYS)
     reflected = grid.zeros()
     for tile, powers in _lossy_tiles(grid):
         tile.put(0.5 * (powers.R_s + powers.R_p), reflected)
@@ -77,7 +76,7 @@ def bragg_powers(
 
     T is the flux into the exit medium, 0 where light fades there; A is the flux that enters the cells less T.
     """
-    grid = Grid(wavelength_nm, (host_ior, n1, n2, d1_nm, d2_nm, cells, cos_theta_h))
+    grid = Grid(wavelength_nm, (host_ior, n1, n2, d1_nm, d2_nm, cells, cos_theta_h), SCRATCH_ARRAYS)
     shares = [grid.zeros() for _ in BraggPowers._fields]
     for tile, powers in _lossy_tiles(grid):
         for share, values in zip(shares, powers, strict=True):
@@ -112,16 +111,19 @@ def _lossless_tiles(grid: Grid) -> Iterator[tuple[Tile, Float64, Float64]]:
     count = int(cells[0]) if cells.size > 0 and np.all(cells == cells[0]) else None
     for is_fading in (False, True):
         for tile in grid.tiles(grid.rows_where(~is_lossy & ~is_total & (is_frustrated == is_fading))):
-            mine = Cell(*(tile.of_rows(getattr(cell, each.name)) for each in fields(cell)))
-            phases = half_phases(mine.path_1_nm, mine.path_2_nm, tile.wavelength_nm, is_frustrated=is_fading)
-            number = tile.of_rows(cells.astype(np.int64)) if count is None else count
-            host_s, host_p = (mine.host_r_s, mine.host_t_s), (mine.host_r_p, mine.host_t_p)
+            of, scratch = tile.of_rows, tile.scratch
+            phases = half_phases(
+                of(cell.path_1_nm), of(cell.path_2_nm), tile.wavelength_nm, scratch, is_frustrated=is_fading
+            )
+            number = of(cells.astype(np.int64)) if count is None else count
+            host_s = (of(cell.host_r_s), of(cell.host_t_s)) if has_host else None
+            host_p = (of(cell.host_r_p), of(cell.host_t_p)) if has_host else None
             with np.errstate(over="ignore"):  # deep in a gap R/T overflows, and T is 0
                 t_s = transmittance(
-                    phases, mine.contrast_s, mine.imbalance_s, number, host_s if has_host else None
+                    phases, of(cell.contrast_s), of(cell.imbalance_s), number, host_s, scratch
                 )
                 t_p = transmittance(
-                    phases, mine.contrast_p, mine.imbalance_p, number, host_p if has_host else None
+                    phases, of(cell.contrast_p), of(cell.imbalance_p), number, host_p, scratch
                 )
             yield tile, t_s, t_p
     for tile in grid.tiles(grid.rows_where(~is_lossy & is_total)):

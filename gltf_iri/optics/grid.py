@@ -25,6 +25,9 @@ class Tile:
     columns: slice
     is_turned: bool
     wavelength_nm: Float64  # 2-D, broadcasts with `of_rows`
+    scratch: tuple[
+        Float64, ...
+    ]  # arrays of the tile's shape for what comes between, overwritten by the next tile
 
     def of_rows(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return what belongs to the tile's rows of an array (rows,), or (1,) for all, to broadcast in it."""
@@ -42,12 +45,15 @@ class Grid:
     Elsewhere every element is a row of one wavelength. `columns` holds the arguments as (rows,) or (1,).
     """
 
-    def __init__(self, wavelength_nm: ArrayLike, arguments: Sequence[ArrayLike]) -> None:
+    def __init__(
+        self, wavelength_nm: ArrayLike, arguments: Sequence[ArrayLike], scratch_arrays: int = 0
+    ) -> None:
         wavelength = np.asarray(wavelength_nm, dtype=np.float64)
         arrays = [np.asarray(a) for a in arguments]
         self._shape = np.broadcast_shapes(wavelength.shape, *(a.shape for a in arrays))
         has_axis = self._shape != () and all(a.shape[-1:] in ((), (1,)) for a in arrays)
-        rows_shape, self._width = (self._shape[:-1], self._shape[-1]) if has_axis else (self._shape, 1)
+        rows_shape = self._shape[:-1] if has_axis else self._shape
+        self._width = self._shape[-1] if has_axis else 1
         self.count = int(np.prod(rows_shape, dtype=np.intp))
         self.columns = [_column(a[..., 0] if has_axis and a.ndim > 0 else a, rows_shape) for a in arrays]
         is_shared = has_axis and wavelength.size == wavelength.shape[-1]
@@ -57,6 +63,7 @@ class Grid:
         )
         # The longer axis runs innermost, so that one operation of numpy has many numbers.
         self._is_turned = is_shared and self.count > self._width
+        self._scratch_arrays = scratch_arrays
 
     def zeros(self) -> Float64:
         """Return an array for a result, rows × wavelengths."""
@@ -74,18 +81,24 @@ class Grid:
         """Yield tiles that together cover `rows` at every wavelength."""
         count = self.count if isinstance(rows, slice) else len(rows)
         inner = count if self._is_turned else self._width
-        long_side = max(1, min(inner, _TILE))
-        short_side = _TILE // long_side
+        long_side = max(1, -(-inner // -(-inner // _TILE))) if inner else 1
+        short_side = max(1, _TILE // long_side)
         row_step, column_step = (long_side, short_side) if self._is_turned else (short_side, long_side)
+        size = min(row_step, count) * min(column_step, self._width)
+        memory = [np.zeros(size) for _ in range(self._scratch_arrays)]
         for row in range(0, count, row_step):
             part = slice(row, min(row + row_step, count))
             chosen = part if isinstance(rows, slice) else rows[part]
             for column in range(0, self._width, column_step):
-                columns = slice(column, column + column_step)
+                columns = slice(column, min(column + column_step, self._width))
                 wavelength = self._wavelength_nm[:, columns]
                 if len(wavelength) > 1:
                     wavelength = wavelength[chosen]
-                yield Tile(chosen, columns, self._is_turned, wavelength.T if self._is_turned else wavelength)
+                shape = part.stop - part.start, columns.stop - columns.start
+                if self._is_turned:
+                    wavelength, shape = wavelength.T, shape[::-1]
+                scratch = tuple(each[: shape[0] * shape[1]].reshape(shape) for each in memory)
+                yield Tile(chosen, columns, self._is_turned, wavelength, scratch)
 
 
 def _column(values: NDArray[Any], rows_shape: tuple[int, ...]) -> NDArray[Any]:

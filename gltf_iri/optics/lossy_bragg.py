@@ -2,8 +2,8 @@
 
 With M the cell's matrix on the tangential fields (E, H) and x half its trace, M^N = T_N + U_{N−1}(M − x),
 both at x, by the doubling of `chebyshev_u`, here in complex numbers. Fading light would overflow, so M is
-taken times e^(−Im φ₁ − Im φ₂), and T and U are divided by a power of two after each step: reflectance is a ratio of
-the two and needs no scale; the transmitted share gets it back as an exponent. Y = q (s) and q/n² (p).
+taken times e^(−Im φ₁ − Im φ₂), and T and U are divided by a power of two after each step: reflectance is a
+ratio of the two and needs no scale; the transmitted share gets it back as an exponent. Y = q (s), q/n² (p).
 """
 
 from __future__ import annotations

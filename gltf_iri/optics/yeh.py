@@ -17,6 +17,7 @@ product real.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -25,13 +26,15 @@ from numpy.typing import NDArray
 
 from gltf_iri.optics.chebyshev_u import chebyshev_pair, chebyshev_u
 
-__all__ = ["HalfPhases", "half_phases", "transmittance"]
+__all__ = ["SCRATCH_ARRAYS", "HalfPhases", "half_phases", "transmittance"]
 
 Float64 = NDArray[np.float64]
 
 # Half turns of decay in n2 beyond which nothing passes: e^(−4π·20) is lost beside 1, and cosh² stays far from
 # overflow.
 _OPAQUE_HALF_TURNS: Final = 20.0
+
+SCRATCH_ARRAYS: Final = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,26 +45,37 @@ class HalfPhases:
     t_2: Float64  # tan ½φ₂, or tanh ½|φ₂| where light fades in n2
     double_cos2: Float64  # 2 cos²½φ₁ cos²½φ₂
     sine_2: Float64  # sin φ₂ or sinh |φ₂|
+    product: Float64  # t₁t₂
     is_frustrated: bool
 
 
-def half_phases(path_1_nm: Any, path_2_nm: Any, wavelength_nm: Any, *, is_frustrated: bool) -> HalfPhases:
-    """Return tangents and cosines of half the phases 2π·path/λ; `is_frustrated` where light fades in n2."""
-    t_1 = _tangent(path_1_nm / wavelength_nm)
-    secant_1 = t_1 * t_1
-    secant_1 += 1.0
+def half_phases(
+    path_1_nm: Any, path_2_nm: Any, wavelength_nm: Any, scratch: Sequence[Float64], *, is_frustrated: bool
+) -> HalfPhases:
+    """Return tangents and cosines of half the phases 2π·path/λ; `is_frustrated` where light fades in n2.
+
+    scratch : SCRATCH_ARRAYS arrays, of which the first five hold the result.
+    """
+    t_1, t_2, double_cos2, sine_2, product, secant_2 = scratch[:6]
+    np.divide(path_1_nm, wavelength_nm, out=t_1)
+    np.divide(path_2_nm, wavelength_nm, out=t_2)
+    _take_tangent(t_1, secant_2)
     if is_frustrated:
-        decay = np.pi * np.minimum(path_2_nm / wavelength_nm, _OPAQUE_HALF_TURNS)
-        t_2, cosine_2 = np.tanh(decay), np.cosh(decay)
-        secant_2 = 1.0 / (cosine_2 * cosine_2)
+        decay = np.pi * np.minimum(t_2, _OPAQUE_HALF_TURNS)
+        np.tanh(decay, out=t_2)
+        np.divide(1.0, np.cosh(decay) ** 2, out=secant_2)
     else:
-        t_2 = _tangent(path_2_nm / wavelength_nm)
-        secant_2 = t_2 * t_2
+        _take_tangent(t_2, secant_2)
+        np.multiply(t_2, t_2, out=secant_2)
         secant_2 += 1.0
-    sine_2 = t_2 / secant_2
+    np.multiply(t_1, t_2, out=product)
+    np.divide(t_2, secant_2, out=sine_2)
     sine_2 *= 2.0
-    secant_1 *= secant_2
-    return HalfPhases(t_1, t_2, np.divide(2.0, secant_1, out=secant_1), sine_2, is_frustrated)
+    np.multiply(t_1, t_1, out=double_cos2)
+    double_cos2 += 1.0
+    double_cos2 *= secant_2
+    np.divide(2.0, double_cos2, out=double_cos2)
+    return HalfPhases(t_1, t_2, double_cos2, sine_2, product, is_frustrated)
 
 
 def transmittance(
@@ -69,55 +83,61 @@ def transmittance(
     contrast: Any,
     imbalance: Any,
     cells: int | NDArray[np.int64],
-    host: tuple[Any, Any] | None = None,
+    host: tuple[Any, Any] | None,
+    scratch: Sequence[Float64],
 ) -> Float64:
-    """Return the share 1/(1 + F) that passes `cells` cells, of one polarisation.
+    """Return a new array of the share 1/(1 + F) that passes `cells` cells, of one polarisation.
 
     contrast, imbalance : of `Cell`; host : its r_h1 and 1 − r_h1², None where the host is n1. Deep in a gap F
     overflows: run under np.errstate(over="ignore"), nothing passes then.
     """
-    one_minus, one_plus = _trace_distances(phases, contrast)
-    one_minus_x2 = one_plus
+    one_minus, one_minus_x2 = scratch[5:7]
+    _trace_distances(phases, contrast, one_minus, one_minus_x2, scratch[7])
     one_minus_x2 *= one_minus
     x = np.subtract(1.0, one_minus, out=one_minus)
     if host is None:
-        ratio = chebyshev_u(x, one_minus_x2, cells)
+        ratio = chebyshev_u(x, one_minus_x2, cells, scratch[7:10])
         ratio *= phases.sine_2
         ratio *= imbalance
         ratio *= ratio
     else:
-        ratio = _ratio_with_host(phases, contrast, imbalance, chebyshev_pair(x, one_minus_x2, cells), host)
+        t, u = chebyshev_pair(x, one_minus_x2, cells, scratch[7:10])
+        ratio = _ratio_with_host(phases, contrast, imbalance, t, u, host)
     ratio += 1.0
-    return np.asarray(np.divide(1.0, ratio, out=ratio))
+    return np.asarray(np.divide(1.0, ratio))
 
 
-def _tangent(half_turns: Float64) -> Float64:
-    """Return tan(π·half_turns); whole half turns come off before π is multiplied in, and cost no digits."""
-    half_turns -= np.rint(half_turns)
+def _take_tangent(half_turns: Float64, scratch: Float64) -> None:
+    """Put tan(π·half_turns) in its place; whole half turns come off before π, and cost no digits."""
+    np.rint(half_turns, out=scratch)
+    half_turns -= scratch
     half_turns *= np.pi
-    return np.asarray(np.tan(half_turns, out=half_turns))
+    np.tan(half_turns, out=half_turns)
 
 
-def _trace_distances(phases: HalfPhases, contrast: Any) -> tuple[Float64, Float64]:
-    """Return 1 − x and 1 + x, x = cos KΛ."""
+def _trace_distances(
+    phases: HalfPhases, contrast: Any, one_minus: Float64, one_plus: Float64, other: Float64
+) -> None:
+    """Put 1 − x and 1 + x into `one_minus` and `one_plus`, x = cos KΛ."""
     inverse = 1.0 / contrast
-    product = phases.t_1 * phases.t_2
-    one_minus = phases.t_2 * (-contrast if phases.is_frustrated else contrast)
+    np.multiply(phases.t_2, -contrast if phases.is_frustrated else contrast, out=one_minus)
     one_minus += phases.t_1
-    other = phases.t_2 * inverse
+    np.multiply(phases.t_2, inverse, out=other)
     other += phases.t_1
     one_minus *= other
     one_minus *= phases.double_cos2
-    one_plus = inverse + product if phases.is_frustrated else inverse - product
-    one_plus *= np.subtract(contrast, product, out=product)
+    if phases.is_frustrated:
+        np.add(inverse, phases.product, out=one_plus)
+    else:
+        np.subtract(inverse, phases.product, out=one_plus)
+    np.subtract(contrast, phases.product, out=other)
+    one_plus *= other
     one_plus *= phases.double_cos2
-    return one_minus, one_plus
 
 
 def _ratio_with_host(
-    phases: HalfPhases, contrast: Any, imbalance: Any, powers: tuple[Float64, Float64], host: tuple[Any, Any]
+    phases: HalfPhases, contrast: Any, imbalance: Any, t: Float64, u: Float64, host: tuple[Any, Any]
 ) -> Float64:
-    t, u = powers
     r, one_minus_r2 = host
     cosine2 = 1.0 / (1.0 + phases.t_1 * phases.t_1)
     sine_1, cosine_1 = 2.0 * phases.t_1 * cosine2, 2.0 * cosine2 - 1.0
