@@ -39,8 +39,14 @@ _CONTRAST_MAX: Final = 1e30
 # From this |cos θ| on x + is is rounding alone, and |e^{iθ}|² < 1e-16.
 _FADED: Final = 1e8
 
-# A step of the grid may turn θ by so much: then no two gaps fall between two of its points.
-_STEP_MAX_RAD: Final = 2.0
+# Gaps are looked for by steps that turn θ by at most so much: then no two of them fall within one.
+_SCAN_RAD: Final = 2.0
+
+# At most so many of them to a step of the grid; there colours are means over all phases.
+_SCANS_MAX: Final = 32
+
+# e^{−2·20} of a wave that has faded so far is rounding, and no product of what grows overflows.
+_FADE_MAX: Final = 20.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +54,7 @@ class BlochCell:
     """One polarisation of cells, shape (rows, 1) each; phases are 2π·path·ν.
 
     omega_half, imbalance : ½Ω and Z. host_r, host_t : r and 1 − r². kappa : the coefficient in b.
+    scans : into how many steps one of the grid is cut to look for gaps.
     """
 
     path_1_nm: Float64
@@ -58,14 +65,15 @@ class BlochCell:
     host_t: Float64
     kappa: Float64
     is_opaque: NDArray[np.bool_]
+    scans: NDArray[np.int64]
 
     @classmethod
     def of(cls, cell: Cell, polarisation: str, step_per_nm: float) -> BlochCell:
         """Return the polarisation "s" or "p" of `cell`, its arrays laid out as rows, for a grid of that step.
 
-        Cells that turn θ by more than 2 rad from one wavenumber of the grid to the next are taken as
-        thinner by a factor, both films alike: their colour tends to a mean over all phases. Cells in which
-        light does not run (constants NaN) and cells along which it grazes are opaque.
+        Cells that turn θ by more than 64 rad from one wavenumber of the grid to the next are taken as
+        thinner by a factor, both films alike: their colour is a mean over all phases. Cells in which light
+        does not run (constants NaN) and cells along which it grazes are opaque.
         """
         path_1, path_2 = (path.reshape(-1, 1) for path in (cell.path_1_nm, cell.path_2_nm))
         x, imbalance, r, t = (
@@ -76,8 +84,8 @@ class BlochCell:
         path_1, path_2, r = (np.where(is_opaque, 0.0, a) for a in (path_1, path_2, r))
         x, t = np.where(is_opaque, 1.0, x), np.where(is_opaque, 1.0, t)
         imbalance = np.where(is_opaque, 0.0, imbalance)
-        longest_nm = _STEP_MAX_RAD / (2.0 * np.pi * step_per_nm)
-        shrink = longest_nm / np.maximum(path_1 + path_2, longest_nm)
+        scan_nm = _SCAN_RAD / (2.0 * np.pi * step_per_nm)
+        shrink = _SCANS_MAX * scan_nm / np.maximum(path_1 + path_2, _SCANS_MAX * scan_nm)
         one_minus_r = np.where(r > 0.0, t / (1.0 + np.abs(r)), 1.0 - r)  # without cancellation at r → 1
         one_plus_r = np.where(r < 0.0, t / (1.0 + np.abs(r)), 1.0 + r)
         return cls(
@@ -89,6 +97,7 @@ class BlochCell:
             t,
             0.5 * (x * one_minus_r + one_plus_r / x),
             is_opaque,
+            np.ceil(shrink * np.maximum(path_1 + path_2, 0.5 * scan_nm) / scan_nm).astype(np.int64),
         )
 
     def at(self, rows: NDArray[np.intp]) -> BlochCell:
@@ -130,19 +139,17 @@ def gap_poles(
 ) -> tuple[NDArray[np.intp], Float64, Float64]:
     """Return rows, places (ν_g − ν₀)/h and strengths ρ/h, (g,) each, of the poles iρ/(ν − ν_g).
 
-    b is all but a straight line between its zeros' neighbours: the secant and one step of Newton's find it.
+    b is all but a straight line between two points of the scan: the secant and a step of Newton's find zeros.
     """
     step_per_nm = float(wavenumber_per_nm[-1] - wavenumber_per_nm[0]) / (len(wavenumber_per_nm) - 1)
-    sin_1, cos_1 = _sincos(cell.path_1_nm, wavenumber_per_nm)
-    sin_2, cos_2 = _sincos(cell.path_2_nm, wavenumber_per_nm)
-    b = sin_1 * cos_2 + cell.kappa * (cos_1 * sin_2)
-    is_change = (b[:, :-1] < 0.0) != (b[:, 1:] < 0.0)
-    rows, column = np.nonzero(is_change & ~cell.is_opaque)
-    before, after = b[rows, column][:, None], b[rows, column + 1][:, None]
-    cell = cell.at(rows)
-    place = before / (before - after)
+    found = [
+        _scan(cell, scans, wavenumber_per_nm[0], step_per_nm, len(wavenumber_per_nm) - 1)
+        for scans in np.unique(cell.scans)
+    ]
+    rows, start, place = (np.concatenate(each) for each in zip(*found, strict=True))
+    start, place, cell = start[:, None], place[:, None], cell.at(rows)
     for _ in range(2):
-        at_per_nm = wavenumber_per_nm[0] + step_per_nm * (column[:, None] + place)
+        at_per_nm = wavenumber_per_nm[0] + step_per_nm * (start + place)
         sin_1, cos_1 = _sincos(cell.path_1_nm, at_per_nm)
         sin_2, cos_2 = _sincos(cell.path_2_nm, at_per_nm)
         turn_1, turn_2 = (2.0 * np.pi * step_per_nm * path for path in (cell.path_1_nm, cell.path_2_nm))
@@ -151,9 +158,25 @@ def gap_poles(
             sin_1 * sin_2
         )
         last = place
-        place = np.clip(place - value / slope, 0.0, 1.0)
+        place = np.clip(place - value / slope, 0.0, 1.0 / cell.scans)
     x = cos_1 * cos_2 - cell.omega_half * (sin_1 * sin_2)
-    return rows, (column[:, None] + last)[:, 0], _strength(cell, cells[rows], sin_1, sin_2, x, slope)[:, 0]
+    return rows, (start + last)[:, 0], _strength(cell, cells[rows], sin_1, sin_2, x, slope)[:, 0]
+
+
+def _scan(
+    cell: BlochCell, scans: int, first_per_nm: float, step_per_nm: float, steps: int
+) -> tuple[NDArray[np.intp], Float64, Float64]:
+    """Return the rows with so many scans in which b changes sign, where, and how far on; in steps."""
+    rows = np.flatnonzero(cell.scans[:, 0] == scans)
+    scanned = cell.at(rows)
+    at_per_nm = first_per_nm + step_per_nm * (np.arange(steps * scans + 1) / scans)
+    sin_1, cos_1 = _sincos(scanned.path_1_nm, at_per_nm)
+    sin_2, cos_2 = _sincos(scanned.path_2_nm, at_per_nm)
+    b = sin_1 * cos_2 + scanned.kappa * (cos_1 * sin_2)
+    is_change = (b[:, :-1] < 0.0) != (b[:, 1:] < 0.0)
+    row, column = np.nonzero(is_change & ~scanned.is_opaque)
+    before, after = b[row, column], b[row, column + 1]
+    return rows[row], column / scans, before / (before - after) / scans
 
 
 def _strength(
@@ -179,7 +202,7 @@ def _sincos(path_nm: Float64, wavenumber_per_nm: Float64, height_per_nm: float =
     sine, cosine = np.sin(phase), np.cos(phase)
     if height_per_nm == 0.0:
         return sine, cosine
-    fade = 2.0 * np.pi * height_per_nm * path_nm
+    fade = np.minimum(2.0 * np.pi * height_per_nm * path_nm, _FADE_MAX)
     grown, odd = np.cosh(fade), np.sinh(fade)
     return sine * grown + 1j * (cosine * odd), cosine * grown - 1j * (sine * odd)
 
