@@ -12,6 +12,7 @@ import numpy as np
 from gltf_iri.backends import choose_backend
 from gltf_iri.colour.spaces import WHITES
 from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.bloch import evaluate_bloch
 from gltf_iri.evaluation.film import Evaluation, Film
 from gltf_iri.evaluation.granier_heidrich import evaluate_granier_heidrich
 from gltf_iri.evaluation.khr import evaluate_khr
@@ -41,6 +42,7 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
         "yeh-spectral": evaluate_yeh_spectral,
         "landmarks": evaluate_landmarks,
         "landmarks-sub": evaluate_landmarks_sub,
+        "bloch": evaluate_bloch,
     }
 )
 

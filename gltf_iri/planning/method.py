@@ -182,6 +182,16 @@ _MIRROR_METHODS: tuple[Method, ...] = (
         ),
         backends=("numpy", "numba"),
     ),
+    Method(
+        "bloch",
+        "mirror",
+        "Samples beside the real axis of wavenumbers, where fringes fade, and a pole for each band gap.",
+        "this project; spec/decisions/bloch.md",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=0.02,  # 20 cells
+        parameters=(Parameter("samples", "Wavenumbers a polarisation.", 16, 8.0, 128.0),),
+    ),
 )
 
 METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (*_FILM_METHODS, *_MIRROR_METHODS)})
