@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any, Final
 
@@ -10,19 +10,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.backends import has_numba
+from gltf_iri.bench.settings import Settings, settings_of, with_defaults
 from gltf_iri.bench.timing import interleaved_ns
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.method import METHODS, ParameterValue
+from gltf_iri.planning.method import METHODS
 
-__all__ = ["WHITE", "ColourRow", "Contestant", "Settings", "colour_rows", "registered"]
+__all__ = ["WHITE", "ColourRow", "Contestant", "colour_row", "colour_rows", "registered"]
 
 Float64 = NDArray[np.float64]
-Settings = Mapping[str, ParameterValue]
-
 WHITE: Final[White] = "D65"
 
 
@@ -64,20 +63,17 @@ class ColourRow:
         return f"{self.method} ({chosen})" if chosen else self.method
 
 
-def registered(
-    method: str, subject: Film | Mirror, settings: Sequence[Settings] = ({},)
-) -> Iterator[Contestant]:
-    """Yield the method called `method` with each of `settings`, on each of its backends that is installed."""
+def registered(method: str, subject: Film | Mirror) -> Iterator[Contestant]:
+    """Yield the method called `method` with each of its settings, on each installed backend that it has."""
     for backend in METHODS[method].backends:
         if backend == "numba" and not has_numba():
             continue
-        for chosen in settings:
+        for chosen in settings_of(method):
 
             def run(backend: str = backend, chosen: Settings = chosen) -> Float64:
                 return evaluate(method, subject, white=WHITE, backend=backend, parameters=chosen).rgb
 
-            defaults = {each.name: each.default for each in METHODS[method].parameters}
-            yield Contestant(method, backend, run, {**defaults, **chosen})
+            yield Contestant(method, backend, run, with_defaults(method, chosen))
 
 
 def colour_rows(
@@ -88,22 +84,25 @@ def colour_rows(
     after_round: Callable[[], None] = lambda: None,
 ) -> list[ColourRow]:
     """Return a row for each contestant; `truth` is (n, 3) linear Rec.709."""
+    colours = [each.run() for each in contestants]
     times_ns = interleaved_ns([each.run for each in contestants], rounds, after_round)
-    rows = []
-    for contestant, time_ns in zip(contestants, times_ns, strict=True):
-        rgb = contestant.run()
-        delta_e = delta_e_2000(rgb, truth)
-        rows.append(
-            ColourRow(
-                workload,
-                contestant.method,
-                contestant.backend,
-                contestant.parameters,
-                ns_per_eval=time_ns / len(truth),
-                max_abs=float(np.abs(rgb - truth).max()),
-                delta_e_mean=float(delta_e.mean()),
-                delta_e_p95=float(np.percentile(delta_e, 95)),
-                delta_e_max=float(delta_e.max()),
-            )
-        )
-    return rows
+    return [
+        colour_row((workload, each.method, each.backend), each.parameters, time_ns / len(truth), rgb, truth)
+        for each, rgb, time_ns in zip(contestants, colours, times_ns, strict=True)
+    ]
+
+
+def colour_row(
+    names: tuple[str, str, str], parameters: Settings, ns_per_eval: float, rgb: Float64, truth: Float64
+) -> ColourRow:
+    """Return the row of a workload, method and backend whose colours are `rgb`, (n, 3) as `truth` is."""
+    delta_e = delta_e_2000(rgb, truth)
+    return ColourRow(
+        *names,
+        parameters,
+        ns_per_eval=ns_per_eval,
+        max_abs=float(np.abs(rgb - truth).max()),
+        delta_e_mean=float(delta_e.mean()),
+        delta_e_p95=float(np.percentile(delta_e, 95)),
+        delta_e_max=float(delta_e.max()),
+    )

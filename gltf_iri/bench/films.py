@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, Settings, colour_rows, registered
+from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, colour_rows, registered
 from gltf_iri.bench.film_set import film_set
 from gltf_iri.bench.fourier_variants import exact_interfaces, khr_with_exact_sensitivity
 from gltf_iri.evaluation.film import Film, base_from_ior
@@ -20,9 +20,6 @@ __all__ = ["FILM_ROUNDS", "FILM_WORKLOADS", "measure_films", "thicker_film_set"]
 
 FILM_ROUNDS: Final = 5
 _ORDERS: Final = (1, 2, 3, 6)
-
-# Parameters of a method that are worth a row of their own beside the defaults.
-_SETTINGS: Final[dict[str, tuple[Settings, ...]]] = {}
 
 
 def thicker_film_set() -> Film:
@@ -46,7 +43,7 @@ def measure_films(
 
 def _contestants(film: Film) -> Iterator[Contestant]:
     for method in method_names("film"):
-        yield from registered(method, film, ({}, *_SETTINGS.get(method, ())))
+        yield from registered(method, film)
     yield Contestant(
         "khr, exact sensitivity", "numpy", functools.partial(khr_with_exact_sensitivity, film, WHITE)
     )

@@ -7,27 +7,19 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Final
 
-from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, Settings, colour_rows, registered
+from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, colour_rows, registered
 from gltf_iri.bench.mirror_set import LOW_CONTRAST_CELLS, MIRROR_CELLS, low_contrast_set, mirror_set
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import METHODS, method_names
 
-__all__ = ["MIRROR_ROUNDS", "MIRROR_WORKLOADS", "SETTINGS", "measure_mirrors"]
+__all__ = ["MIRROR_ROUNDS", "MIRROR_WORKLOADS", "measure_mirrors"]
 
 MIRROR_ROUNDS: Final = 5
 
 MIRROR_WORKLOADS: Final[dict[str, Callable[[], Mirror]]] = {
     **{f"mirrors-{cells}": functools.partial(mirror_set, cells) for cells in MIRROR_CELLS},
     **{f"low-contrast-{cells}": functools.partial(low_contrast_set, cells) for cells in LOW_CONTRAST_CELLS},
-}
-
-# What is chosen of a method's parameters, a row each; methods that are not named stand with their defaults.
-SETTINGS: Final[dict[str, tuple[Settings, ...]]] = {
-    "landmarks-sub": (
-        *({"subdivisions": s} for s in (2, 3, 4, 5)),
-        *({"subdivisions": 3, "root_finder": finder} for finder in ("newton-1", "bisect-10")),
-    ),
 }
 
 
@@ -50,4 +42,4 @@ def measure_mirrors(
 def _contestants(mirror: Mirror) -> Iterator[Contestant]:
     for name in method_names("mirror"):
         if not METHODS[name].is_truth:
-            yield from registered(name, mirror, SETTINGS.get(name, ({},)))
+            yield from registered(name, mirror)

@@ -30,13 +30,11 @@ def interleaved_ns(
 ) -> list[float]:
     """Return the median time of each run in nanoseconds.
 
-    Each is called once beforehand, which compiles what is compiled at the first call. Then every round calls
-    each in turn, so that what slows the machine down for a while slows all of them.
+    Every round calls each in turn, so that what slows the machine down for a while slows all of them. Each
+    has been called before, which compiled what is compiled at the first call; another call beforehand tells
+    how often it is repeated.
     """
-    repeats = []
-    for run in runs:
-        run()
-        repeats.append(max(1, math.ceil(_SHORTEST_NS / max(1, _elapsed_ns(run, 1)))))
+    repeats = [max(1, math.ceil(_SHORTEST_NS / max(1, _elapsed_ns(run, 1)))) for run in runs]
     times: list[list[float]] = [[] for _ in runs]
     for _ in range(rounds):
         for k, run in enumerate(runs):

@@ -20,7 +20,7 @@ __all__ = ["FILMS", "OPTICS", "command"]
 
 OPTICS = ("W1", "W2", "W3", "W4", "W5", "lossy-film", "tir-film", "lossy-cells", "tir-cells")
 FILMS = ("films", "films-3um")
-_NAMES = (*FILMS, "mirrors", "optics", *OPTICS)
+_NAMES = (*FILMS, "mirrors", "optics", *OPTICS, "glsl")
 _DEFAULT = ("films", "mirrors")
 
 
@@ -55,6 +55,8 @@ def command(
 
     optics: reflectances of films, mirrors and stacks on one thread, their error against 50 digits; it is the
     sum of W1 to W5, lossy-film, tir-film, lossy-cells and tir-cells, each of which is a NAME too.
+
+    glsl: what a colour costs in OpenGL, on one core where the renderer is software.
     """
     chosen = dict.fromkeys(names or _DEFAULT)
     optics = [name for name in OPTICS if name in chosen or "optics" in chosen]
@@ -68,6 +70,8 @@ def command(
         _mirrors(report, rounds)
     if optics:
         _optics(report, optics, peers, rounds, plot)
+    if "glsl" in chosen:
+        _glsl(report, rounds)
     if as_json:
         rows = [row.to_json() for row in report.rows]
         print_json({"white": "D65", "machine": report.machine, "skipped": report.skipped, "rows": rows})
@@ -78,22 +82,38 @@ def command(
 
 def _films(report: _Report, name: str, rounds: int | None) -> None:
     from gltf_iri.bench.films import FILM_ROUNDS, measure_films
+    from gltf_iri.bench.timing import one_thread
 
     count = rounds or FILM_ROUNDS
-    with progress(name, count) as advance:
+    with one_thread(), progress(name, count) as advance:
         rows = measure_films(name, count, advance)
     _add_colours(report, rows, "Films against spectral truth")
 
 
 def _mirrors(report: _Report, rounds: int | None) -> None:
     from gltf_iri.bench.mirrors import MIRROR_ROUNDS, MIRROR_WORKLOADS, measure_mirrors
+    from gltf_iri.bench.timing import one_thread
 
     count = rounds or MIRROR_ROUNDS
     rows: list[ColourRow] = []
-    with progress("mirrors", count * len(MIRROR_WORKLOADS)) as advance:
+    with one_thread(), progress("mirrors", count * len(MIRROR_WORKLOADS)) as advance:
         for name in MIRROR_WORKLOADS:
             rows += measure_mirrors(name, count, advance)
     _add_colours(report, rows, "Mirrors against spectral truth")
+
+
+def _glsl(report: _Report, rounds: int | None) -> None:
+    from gltf_iri.bench.timing import one_thread
+
+    with one_thread():
+        from gltf_iri.bench.glsl import GLSL_ROUNDS, GLSL_WORKLOADS, measure_glsl
+        from gltf_iri.rendering.context import create_context
+
+        # Its threads are counted when it is made.
+        context = create_context()
+        with progress("glsl", len(GLSL_WORKLOADS)) as advance:
+            rows = measure_glsl(context, rounds or GLSL_ROUNDS, advance)
+    _add_colours(report, rows, "GLSL twins against spectral truth")
 
 
 def _add_colours(report: _Report, rows: list[ColourRow], title: str) -> None:

@@ -1,0 +1,31 @@
+"""Which of a method's parameters are worth rows of their own in a benchmark."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+from gltf_iri.planning.method import METHODS, ParameterValue
+
+__all__ = ["SETTINGS", "Settings", "settings_of", "with_defaults"]
+
+Settings = Mapping[str, ParameterValue]
+
+# Beside the defaults, which come first for every method.
+SETTINGS: Final[Mapping[str, tuple[Settings, ...]]] = {
+    "bloch": ({"samples": 24}, {"samples": 32}),
+    "landmarks-sub": (
+        *({"subdivisions": s} for s in (2, 4, 5)),
+        *({"root_finder": finder} for finder in ("newton-1", "bisect-10")),
+    ),
+}
+
+
+def settings_of(method: str) -> tuple[Settings, ...]:
+    """Return what is chosen of a method's parameters, a row each; the first chooses nothing."""
+    return ({}, *SETTINGS.get(method, ()))
+
+
+def with_defaults(method: str, chosen: Settings) -> dict[str, ParameterValue]:
+    """Return all parameters of a method where `chosen` are set and the others left alone."""
+    return {each.name: chosen.get(each.name, each.default) for each in METHODS[method].parameters}
