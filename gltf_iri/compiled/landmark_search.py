@@ -16,7 +16,7 @@ __all__ = ["search_by_halving", "search_by_newton"]
 
 # As in the twin.
 _HALVINGS = 10
-_TINY = 1e-300
+_TINY = 1e-150
 _LEAST_SLOPE = 0.05
 
 
@@ -102,4 +102,6 @@ def search_by_halving(count: int, modes: Any, leans: Any, squares: Any, root: An
         for i in range(count):
             found[which, i] = 0.5 * (root[0, i] + root[1, i])
     for i in range(count):
-        found[0, i] = 0.0 if modes[i] == 0.0 else found[0, i]
+        is_matched = squares[i] == 0.0
+        found[0, i] = modes[i] if is_matched or modes[i] == 0.0 else found[0, i]
+        found[2, i] = modes[i] + 1.0 if is_matched else found[2, i]

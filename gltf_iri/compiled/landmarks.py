@@ -18,7 +18,7 @@ __all__ = ["landmark_search", "landmark_transmittances"]
 
 _BANDS_AT_ONCE = 264  # more than a lane ever has: MODES_MAX + 1 of optics/landmarks.py
 _BOXES_PER_BAND = 15  # three, each in at most five parts
-_TINY = 1e-300
+_TINY = 1e-150
 _SHORTEST_NM = 360.0
 _LONGEST_NM = 830.0
 

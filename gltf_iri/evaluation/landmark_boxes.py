@@ -79,14 +79,17 @@ def lanes_of(mirror: Mirror) -> Lanes:
     ratio = mirror.host_ior / n1
     cos_1 = np.sqrt(np.maximum(1.0 - ratio * ratio * ((1.0 - cos_h) * (1.0 + cos_h)), 0.0))
     path = np.maximum(cell.path_1_nm + cell.path_2_nm, _LEAST_PATH_NM)
-    r_s = _r_squared(cell.contrast_s, cell.imbalance_s)
-    r_p = _r_squared(cell.contrast_p, cell.imbalance_p)
 
     def lanes(s: Float64, p: Float64) -> Float64:
         both = [np.broadcast_to(np.where(runs, each, 0.0), mirror.shape) for each in (s, p)]
         return np.stack(both, axis=-1).reshape(-1)
 
-    lean, weight = (cell.path_1_nm - cell.path_2_nm) / path, envelope_weight(normal_r_squared(n1, n2), cos_1)
+    lean = (cell.path_1_nm - cell.path_2_nm) / path
+    # Without one of its films a cell has no interface; also towards grazing light, where r₁₂² nears 1.
+    has_both = (cell.path_1_nm > 0.0) & (cell.path_2_nm > 0.0)
+    r_s = np.where(has_both, _r_squared(cell.contrast_s, cell.imbalance_s), 0.0)
+    r_p = np.where(has_both, _r_squared(cell.contrast_p, cell.imbalance_p), 0.0)
+    weight = envelope_weight(normal_r_squared(n1, n2), cos_1)
     return Lanes(
         np.maximum(lanes(path, path), _LEAST_PATH_NM),
         lanes(lean, lean),

@@ -31,7 +31,7 @@ ROOT_FINDERS: Final[tuple[RootFinder, ...]] = get_args(RootFinder)
 MODES_MAX: Final = 256
 
 _HALVINGS: Final = 10
-_TINY: Final = 1e-300  # keeps 0/0 at closed gaps and at r = 1 from being NaN
+_TINY: Final = 1e-150  # keeps 0/0 at closed gaps and at r = 1 from being NaN, and its square from underflow
 _LEAST_SLOPE: Final = 0.05  # keeps a step off a flat slope (grazing light only) from leaving the bracket
 
 
@@ -142,8 +142,9 @@ def _band_by_halving(m: Float64, rho: Float64, square: Float64) -> Band:
     airy = _halve(low, high, sign, 0.0, rho, square)
     start = _halve(low, airy, sign, 1.0 - square, rho, square)
     end = _halve(airy, high, sign, square - 1.0, rho, square)
-    # At m = 0 there is no gap: the band starts at ω = 0.
-    return Band(np.where(low == 0.0, 0.0, start), airy, end)
+    # No gap is at ω = 0, and none anywhere in a cell of equal media: there nothing is left to be halved.
+    is_matched = square == 0.0
+    return Band(np.where(is_matched | (low == 0.0), low, start), airy, np.where(is_matched, high, end))
 
 
 def _halve(low: Float64, high: Float64, sign: Any, level: Any, rho: Any, square: Any) -> Float64:
