@@ -13,10 +13,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gltf_iri.optics.bragg_cell import Cell, cell_optics, frustrated_cell_optics
+from gltf_iri.optics.bragg_cell import Cell, cell_optics, film_optics, host_optics
 from gltf_iri.optics.grid import Grid, Tile
 from gltf_iri.optics.lossy_bragg import lossy_powers
-from gltf_iri.optics.refraction import normal_index_squared
 from gltf_iri.optics.yeh import SCRATCH_ARRAYS, half_phases, transmittance
 
 __all__ = ["BraggPowers", "Cell", "bragg_powers", "bragg_reflectance", "cell_optics"]
@@ -104,29 +103,29 @@ def _lossless_tiles(grid: Grid) -> Iterator[tuple[Tile, Float64, Float64]]:
     is_lossy = (n1.imag != 0.0) | (n2.imag != 0.0)
     if is_lossy.all():
         return
-    cell, is_frustrated = frustrated_cell_optics(host, n1.real, n2.real, d1, d2, cosine)
-    is_total = normal_index_squared(n1.real, host, cosine).real < 0.0
-    has_host = not np.all(host == n1)
+    films = film_optics(host, n1.real, n2.real, d1, d2, cosine)
+    under = None if np.all(host == n1) else host_optics(host, n1.real, cosine)
     # One number for all is doubled along its own bits; else every row goes through the bits of the greatest.
-    count = int(cells[0]) if cells.size > 0 and np.all(cells == cells[0]) else None
+    count = int(cells[0]) if np.all(cells == cells[:1]) else None
     for is_fading in (False, True):
-        for tile in grid.tiles(grid.rows_where(~is_lossy & ~is_total & (is_frustrated == is_fading))):
+        rows = grid.rows_where(~(is_lossy | films.fades_in_1) & (films.fades_in_2 == is_fading))
+        for tile in grid.tiles(rows):
             of, scratch = tile.of_rows, tile.scratch
             phases = half_phases(
-                of(cell.path_1_nm), of(cell.path_2_nm), tile.wavelength_nm, scratch, is_frustrated=is_fading
+                of(films.path_1_nm), of(films.path_2_nm), tile.wavelength_nm, scratch, is_frustrated=is_fading
             )
             number = of(cells.astype(np.int64)) if count is None else count
-            host_s = (of(cell.host_r_s), of(cell.host_t_s)) if has_host else None
-            host_p = (of(cell.host_r_p), of(cell.host_t_p)) if has_host else None
+            host_s = None if under is None else (of(under.r_s), of(under.t_s))
+            host_p = None if under is None else (of(under.r_p), of(under.t_p))
             with np.errstate(over="ignore"):  # deep in a gap R/T overflows, and T is 0
                 t_s = transmittance(
-                    phases, of(cell.contrast_s), of(cell.imbalance_s), number, host_s, scratch
+                    phases, of(films.contrast_s), of(films.imbalance_s), number, host_s, scratch
                 )
                 t_p = transmittance(
-                    phases, of(cell.contrast_p), of(cell.imbalance_p), number, host_p, scratch
+                    phases, of(films.contrast_p), of(films.imbalance_p), number, host_p, scratch
                 )
             yield tile, t_s, t_p
-    for tile in grid.tiles(grid.rows_where(~is_lossy & is_total)):
+    for tile in grid.tiles(grid.rows_where(~is_lossy & films.fades_in_1)):
         # Light fades in n1 and beyond the mirror: all is reflected; only a NaN passes.
         nothing = 0.0 * (tile.of_rows(n2.real + d1 + d2) * tile.wavelength_nm)
         yield tile, nothing, nothing.copy()

@@ -7,15 +7,15 @@ Y = q/n² (p) are its admittances. Convention exp(−iωt).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
-from typing import Final
+from dataclasses import dataclass
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gltf_iri.optics.refraction import normal_index_squared
+from gltf_iri.optics.refraction import normal_index_squared_real
 
-__all__ = ["NO_NORMAL_INDEX", "Cell", "cell_optics", "frustrated_cell_optics"]
+__all__ = ["NO_NORMAL_INDEX", "Cell", "Films", "Host", "cell_optics", "film_optics", "host_optics"]
 
 Float64 = NDArray[np.float64]
 
@@ -47,6 +47,31 @@ class Cell:
     host_t_p: Float64
 
 
+class Films(NamedTuple):
+    """What `Cell` says of the two films, also where light fades in n2; arrays broadcast.
+
+    There q₂ = i|q₂|, and path_2_nm, contrast and imbalance hold |q₂| for q₂. NaN where light fades in n1.
+    """
+
+    path_1_nm: Float64
+    path_2_nm: Float64
+    contrast_s: Float64
+    contrast_p: Float64
+    imbalance_s: Float64
+    imbalance_p: Float64
+    fades_in_1: NDArray[np.bool_]
+    fades_in_2: NDArray[np.bool_]
+
+
+class Host(NamedTuple):
+    """What `Cell` says of the step from the host into n1; arrays broadcast."""
+
+    r_s: Float64
+    r_p: Float64
+    t_s: Float64
+    t_p: Float64
+
+
 def cell_optics(
     host_ior: ArrayLike,
     n1: ArrayLike,
@@ -56,52 +81,64 @@ def cell_optics(
     cos_theta_h: ArrayLike,
 ) -> Cell:
     """Return the cell's constants for real indices (Yeh 1988; Fourneau et al. 2024, Eq. 8 and Appendix D)."""
-    cell, is_frustrated = frustrated_cell_optics(host_ior, n1, n2, d1_nm, d2_nm, cos_theta_h)
-    if not is_frustrated.any():
-        return cell
-    return replace(
-        cell, **{f.name: np.where(is_frustrated, np.nan, getattr(cell, f.name)) for f in fields(cell)}
+    films = film_optics(host_ior, n1, n2, d1_nm, d2_nm, cos_theta_h)
+    *constants, is_dark = np.broadcast_arrays(
+        *films[:6], *host_optics(host_ior, n1, cos_theta_h), films.fades_in_1 | films.fades_in_2
     )
+    if is_dark.any():
+        constants = [np.where(is_dark, np.nan, each) for each in constants]
+    return Cell(*constants)
 
 
-def frustrated_cell_optics(
+def film_optics(
     host_ior: ArrayLike,
     n1: ArrayLike,
     n2: ArrayLike,
     d1_nm: ArrayLike,
     d2_nm: ArrayLike,
     cos_theta_h: ArrayLike,
-) -> tuple[Cell, NDArray[np.bool_]]:
-    """Return the constants also where light fades in n2, and where it does.
-
-    There q₂ = i|q₂|; path_2_nm, contrast and imbalance hold |q₂| for q₂. NaN stays where it fades in n1.
-    """
+) -> Films:
+    """Return the constants of the two films under a host."""
     host, first, second, d1, d2, c = (
         np.asarray(a, dtype=np.float64) for a in (host_ior, n1, n2, d1_nm, d2_nm, cos_theta_h)
     )
-    squared_1, squared_2 = (normal_index_squared(n, host, c).real for n in (first, second))
-    q_h = np.maximum(host * c, NO_NORMAL_INDEX)
-    q_1 = np.maximum(np.sqrt(np.where(squared_1 < 0.0, np.nan, squared_1)), NO_NORMAL_INDEX)
-    q_2 = np.maximum(np.sqrt(np.abs(squared_2)), NO_NORMAL_INDEX)
-
+    q_1, fades_in_1 = _along_normal(first, host, c)
+    q_2, fades_in_2 = _along_normal(second, host, c)
+    n1n1, n2n2 = first * first, second * second
     tangential = host * host * ((1.0 - c) * (1.0 + c))  # (n sin θ)², the same in every medium
-    hh, n1n1, n2n2 = host * host, first * first, second * second
+    contrast = q_2 / q_1
     # Y₂² − Y₁² as products: q₂² − q₁² = n2² − n1²; for p, with a factor that vanishes at Brewster's angle.
-    imbalance_s = (second - first) * (second + first) / (2.0 * q_1 * q_2)
-    brewster = tangential * (n1n1 + n2n2) / (n1n1 * n2n2) - 1.0
-    sum_s, sum_p = q_h + q_1, n1n1 * q_h + hh * q_1
-    step = (host - first) * (host + first)
-    constants = (
-        q_1 * d1,
+    imbalance_s = (0.5 * (second - first) * (second + first)) / (q_1 * q_2)
+    brewster = tangential * ((n1n1 + n2n2) / (n1n1 * n2n2)) - 1.0
+    return Films(
+        np.where(fades_in_1, np.nan, q_1 * d1) if fades_in_1.any() else q_1 * d1,
         q_2 * d2,
-        q_2 / q_1,
-        (q_2 * n1n1) / (q_1 * n2n2),
+        contrast,
+        contrast * (n1n1 / n2n2),
         imbalance_s,
         imbalance_s * brewster,
+        fades_in_1,
+        fades_in_2,
+    )
+
+
+def host_optics(host_ior: ArrayLike, n1: ArrayLike, cos_theta_h: ArrayLike) -> Host:
+    """Return r_h1 and 1 − r_h1² of both polarisations; meaningless where light fades in n1."""
+    host, first, c = (np.asarray(a, dtype=np.float64) for a in (host_ior, n1, cos_theta_h))
+    q_h, (q_1, _) = np.maximum(host * c, NO_NORMAL_INDEX), _along_normal(first, host, c)
+    hh, n1n1 = host * host, first * first
+    tangential = hh * ((1.0 - c) * (1.0 + c))
+    sum_s, sum_p = q_h + q_1, n1n1 * q_h + hh * q_1
+    step = (host - first) * (host + first)
+    return Host(
         step / (sum_s * sum_s),
         step * (tangential * (n1n1 + hh) - n1n1 * hh) / (sum_p * sum_p),
         4.0 * q_h * q_1 / (sum_s * sum_s),
         4.0 * (n1n1 * q_h) * (hh * q_1) / (sum_p * sum_p),
     )
-    *each, is_frustrated = np.broadcast_arrays(*constants, squared_2 < 0.0)
-    return Cell(*each), is_frustrated
+
+
+def _along_normal(index: Float64, host_ior: Float64, c: Float64) -> tuple[Float64, NDArray[np.bool_]]:
+    """Return |q| of a film, never 0, and where light fades in it."""
+    squared = np.asarray(normal_index_squared_real(index, host_ior, c))
+    return np.maximum(np.sqrt(np.abs(squared)), NO_NORMAL_INDEX), squared < 0.0

@@ -75,13 +75,17 @@ class Grid:
 
     def rows_where(self, mask: NDArray[np.bool_]) -> Rows:
         """Return the rows where `mask` (rows,) or (1,) holds."""
-        return slice(0, self.count) if mask.all() else np.flatnonzero(np.broadcast_to(mask, (self.count,)))
+        if mask.all():
+            return slice(0, self.count)
+        return np.flatnonzero(np.broadcast_to(mask, (self.count,))) if mask.any() else slice(0, 0)
 
     def tiles(self, rows: Rows) -> Iterator[Tile]:
         """Yield tiles that together cover `rows` at every wavelength."""
-        count = self.count if isinstance(rows, slice) else len(rows)
+        count = rows.stop if isinstance(rows, slice) else len(rows)
+        if count * self._width == 0:
+            return
         inner = count if self._is_turned else self._width
-        long_side = max(1, -(-inner // -(-inner // _TILE))) if inner else 1
+        long_side = -(-inner // -(-inner // _TILE))  # even shares, rounded up
         short_side = max(1, _TILE // long_side)
         row_step, column_step = (long_side, short_side) if self._is_turned else (short_side, long_side)
         size = min(row_step, count) * min(column_step, self._width)
