@@ -8,7 +8,7 @@ from typing import Any, TypeVar, cast
 import numba
 from numba.core.codegen import get_host_cpu_features
 
-__all__ = ["inline", "loop"]
+__all__ = ["as_written", "inline", "loop"]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -28,6 +28,11 @@ def loop(function: Function) -> Function:
 def inline(function: Function) -> Function:
     """Compile a scalar function into the loops that call it."""
     return cast(Function, numba.njit(inline="always", **_OPTIONS)(function))
+
+
+def as_written(function: Function) -> Function:
+    """Compile a scalar function whose rounding errors are known: no multiplication fuses with a sum."""
+    return cast(Function, numba.njit(error_model="numpy")(function))
 
 
 def _use_whole_vectors() -> None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gltf_iri.colour.integrate import integrate_colour
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Complex128, Evaluation, Film, Float64, index_by_wavelength
-from gltf_iri.optics.film import FilmReflectance, tangent_over_q
+from gltf_iri.optics.film import film_reflectance
 
 __all__ = ["evaluate_spectral", "film_spectrum"]
 
@@ -62,8 +62,15 @@ class _Rows:
             bases = [index_by_wavelength(film.base.index_at, wavelength_nm)]
         else:
             bases = [self._base_index[rows, c : c + 1] for c in range(1 if self._is_grey else 3)]
-        films = [FilmReflectance(self._outside_ior[rows], film_ior, n3, self._cosine[rows]) for n3 in bases]
-        u = tangent_over_q(films[0].q2_squared, self._thickness_nm[rows] / wavelength_nm)
-        if len(films) == 1:
-            return films[0](u)
-        return np.stack([each(u) for each in films], axis=-1)
+        grids = [
+            film_reflectance(
+                self._outside_ior[rows],
+                film_ior,
+                n3,
+                self._thickness_nm[rows],
+                wavelength_nm,
+                self._cosine[rows],
+            )
+            for n3 in bases
+        ]
+        return grids[0] if len(grids) == 1 else np.stack(grids, axis=-1)

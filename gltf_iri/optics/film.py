@@ -1,110 +1,257 @@
-"""The exact reflectance of one thin film: every inter-reflection, both polarisations.
+"""The exact reflectance of one film that absorbs nothing: every inter-reflection, both polarisations.
 
-The Airy sum r = (r₁₂ + r₂₃e^{2iβ})/(1 + r₁₂r₂₃e^{2iβ}) (Belcour & Barla 2017, Eq. 2–3) equals
+The Airy sum r = (r₁₂ + r₂₃e^{2iβ})/(1 + r₁₂r₂₃e^{2iβ}) (Belcour & Barla 2017, Eq. 2–3) is, with the
+admittances Y = q (s) and Y = q/n² (p), q = n cos θ, and β = 2πd q₂/λ,
 
-    r = (Y₁ − Y₃ + iu(Y₂² − Y₁Y₃)) / (Y₁ + Y₃ − iu(Y₂² + Y₁Y₃)),   u = tan β / Y₂,   β = 2π d q₂/λ
+    r = (Y₁ − Y₃ + i tan β (Y₂² − Y₁Y₃)/Y₂) / (Y₁ + Y₃ − i tan β (Y₂² + Y₁Y₃)/Y₂).
 
-with the admittances Y = q (s) and Y = q/n² (p), q = n cos θ. This form is used: towards grazing light, where
-r₁₂ → −1, it does not subtract nearly equal numbers as 1 + r₁₂r₂₃e^{2iβ} does, and it needs one tangent for
-both polarisations. Convention exp(−iωt), index n + ik, k ≥ 0.
+What does not return enters the base, so that
+
+    R = 1 − κ(1 + tan²β) / ((1 + g tan β)² + (h tan β)²),    κ = 4Y₁ Re Y₃/|Y₁ + Y₃|²,
+    g − ih = −i(Y₂² + Y₁Y₃) / (Y₂(Y₁ + Y₃)),
+
+where κ, g and h belong to the angle, one tangent serves both polarisations, and no nearly equal numbers are
+subtracted towards grazing light, where r₁₂ → −1. In a frustrated film q₂ and tan β are imaginary: Y₂² and
+tan²β change sign. Convention exp(−iωt), index n + ik, k ≥ 0. Twin: `gltf_iri.compiled.film`.
+`gltf_iri.optics.airy` has films that absorb, and what is transmitted.
 """
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gltf_iri.optics.refraction import normal_index, normal_index_squared
+from gltf_iri.backends import Backend
+from gltf_iri.optics.blocks import blocks, part
+from gltf_iri.optics.refraction import (
+    normal_index,
+    normal_index_squared,
+    normal_index_squared_exact,
+    normal_index_squared_real,
+)
+from gltf_iri.optics.two_floats import exact_product, reciprocal, split, square_root
 
-__all__ = ["FilmReflectance", "tangent_over_q"]
+__all__ = ["film_reflectance", "film_reflectance_polarised"]
 
 Float64 = NDArray[np.float64]
 
-_NO_INDEX = 1e-150  # below, n² underflows; such a base reflects everything
+_NO_INDEX: Final = 1e-150  # below, n² underflows; such a base reflects everything
+
+# Flatter light than this is at its limit to the last bit; no square of it underflows, no ratio overflows.
+_GRAZING: Final = 1e-40
+
+# From so many half turns on, phases are multiplied with twice float64's digits: each costs 4e-16 rad here.
+_MANY_HALF_TURNS: Final = 4.0
 
 
-class FilmReflectance:
-    """What a film's reflectance keeps from one wavelength to the next.
+def film_reflectance(
+    outside_ior: ArrayLike,
+    film_ior: ArrayLike,
+    base_index: ArrayLike,
+    thickness_nm: ArrayLike,
+    wavelength_nm: ArrayLike,
+    cos_theta_1: ArrayLike,
+    *,
+    backend: Backend = "numpy",
+) -> Float64:
+    """Return the mean of R_s and R_p of a film that absorbs nothing; all arguments broadcast.
 
-    outside_ior, film_ior, cos_theta_1 : (...), real; base_index : (...), complex; they broadcast. A base
-    index of ∞ or of 0 is the perfect mirror. Where an index depends on the wavelength, pass it with that
-    axis.
+    base_index : n + ik, k ≥ 0; ∞ or 0 is the perfect mirror. outside_ior, film_ior : real.
+    What depends on the angle is computed in the shape of indices and cosine alone. Give the wavelengths an
+    axis of their own, best the last: film_reflectance(1.0, 1.3, 1.5, 400.0, wavelength_nm, cosine[:, None]).
     """
+    if backend == "numba":
+        from gltf_iri.compiled.film import film_reflectance as compiled
+
+        return compiled(outside_ior, film_ior, base_index, thickness_nm, wavelength_nm, cos_theta_1)
+    films = _Films(outside_ior, film_ior, base_index, thickness_nm, wavelength_nm, cos_theta_1)
+    return films.reflectances(mean=True)[0]
+
+
+def film_reflectance_polarised(
+    outside_ior: ArrayLike,
+    film_ior: ArrayLike,
+    base_index: ArrayLike,
+    thickness_nm: ArrayLike,
+    wavelength_nm: ArrayLike,
+    cos_theta_1: ArrayLike,
+) -> tuple[Float64, Float64]:
+    """Return R_s and R_p; arguments as in `film_reflectance`."""
+    films = _Films(outside_ior, film_ior, base_index, thickness_nm, wavelength_nm, cos_theta_1)
+    s, p = films.reflectances(mean=False)
+    return s, p
+
+
+class _Films:
+    """Films, with what they keep from one wavelength to the next in the shape of indices and cosine."""
 
     def __init__(
-        self, outside_ior: ArrayLike, film_ior: ArrayLike, base_index: ArrayLike, cos_theta_1: ArrayLike
+        self,
+        outside_ior: ArrayLike,
+        film_ior: ArrayLike,
+        base_index: ArrayLike,
+        thickness_nm: ArrayLike,
+        wavelength_nm: ArrayLike,
+        cos_theta_1: ArrayLike,
     ) -> None:
-        n1, n2, c1 = (np.asarray(a, dtype=np.float64) for a in (outside_ior, film_ior, cos_theta_1))
-        n3 = np.asarray(base_index, dtype=np.complex128)
-        self._is_mirror = np.isinf(n3) | (np.abs(n3) < _NO_INDEX)
-        n3 = np.where(self._is_mirror, 1.0, n3)
+        given = (outside_ior, film_ior, thickness_nm, wavelength_nm, cos_theta_1)
+        n1, n2, thickness, wavelength, c1 = (np.asarray(a, dtype=np.float64) for a in given)
+        n3: Any = np.asarray(base_index, dtype=np.complex128)
+        self.shape = np.broadcast_shapes(
+            n1.shape, n2.shape, n3.shape, thickness.shape, wavelength.shape, c1.shape
+        )
+        c1 = np.maximum(c1, _GRAZING)
+        size = np.abs(n3)
+        is_mirror = (size < _NO_INDEX) | np.isinf(size)
+        n3 = np.where(is_mirror, 1.0, n3)
 
-        q1 = n1 * c1
-        self.q2_squared = normal_index_squared(n2, n1, c1).real
-        q3 = normal_index(normal_index_squared(n3, n1, c1))
-
-        self._s = _Polarisation(q1, self.q2_squared, q3, np.ones(()))
-        self._p = _Polarisation(q1 / (n1 * n1), self.q2_squared / n2**4, q3 / (n3 * n3), n2 * n2)
-
-    def __call__(self, u: ArrayLike) -> Float64:
-        """Return the mean of R_s and R_p for u = tan β/q₂ (`tangent_over_q`), broadcast with the film."""
-        u = np.asarray(u, dtype=np.float64)
-        mean = 0.5 * (self._s.reflectance(u) + self._p.reflectance(u))
-        return np.asarray(np.where(self._is_mirror, 1.0, mean))
-
-    def polarised(self, u: ArrayLike) -> tuple[Float64, Float64]:
-        """Return R_s and R_p apart."""
-        u = np.asarray(u, dtype=np.float64)
-        s, p = self._s.reflectance(u), self._p.reflectance(u)
-        return np.where(self._is_mirror, 1.0, s), np.where(self._is_mirror, 1.0, p)
-
-
-class _Polarisation:
-    """R(u) = |N₀ + iu N₁|² / |D₀ − iu D₁|², split into real and imaginary parts."""
-
-    def __init__(self, y1: Any, y2_squared: Any, y3: Any, scale: Any) -> None:
-        # tan β/Y₂ = scale · tan β/q₂ goes into the coefficients of u.
-        self._num_real = y1 - y3.real, scale * y1 * y3.imag
-        self._num_imag = -y3.imag, scale * (y2_squared - y1 * y3.real)
-        self._den_real = y1 + y3.real, scale * y1 * y3.imag
-        self._den_imag = y3.imag, -scale * (y2_squared + y1 * y3.real)
-        self._absorbs_nothing = not np.any(y3.imag)
-
-    def reflectance(self, u: Float64) -> Float64:
-        if self._absorbs_nothing:  # half the terms are zero: the same sums in half the time
-            u_squared = u * u
-            numerator = self._num_real[0] ** 2 + self._num_imag[1] ** 2 * u_squared
-            denominator = self._den_real[0] ** 2 + self._den_imag[1] ** 2 * u_squared
+        most = [np.max(a, initial=0.0) for a in (thickness, n1, n2)]
+        half_turns = 2.0 * most[0] * max(most[1:]) / np.min(wavelength, initial=np.inf)
+        is_thick = bool(half_turns > _MANY_HALF_TURNS)
+        if is_thick:
+            q2_squared, low = normal_index_squared_exact(n2, n1, c1)
         else:
-            numerator = _affine(self._num_real, u) ** 2 + _affine(self._num_imag, u) ** 2
-            denominator = _affine(self._den_real, u) ** 2 + _affine(self._den_imag, u) ** 2
-        # Only where all three media match at grazing do both vanish: then nothing reflects.
-        is_nothing = denominator == 0.0
-        if np.any(is_nothing):
-            return np.asarray(np.where(is_nothing, 0.0, numerator / np.where(is_nothing, 1.0, denominator)))
-        return np.asarray(numerator / denominator)
+            q2_squared, low = normal_index_squared_real(n2, n1, c1), 0.0
+        is_frustrated = q2_squared < 0.0
+        sign: Any = 1.0
+        self._sign = None
+        if np.any(is_frustrated):
+            sign = np.where(is_frustrated, -1.0, 1.0)
+            self._sign = sign[None]
+        inside = np.maximum(sign * q2_squared, _GRAZING**2)
+        q2 = square_root(inside, sign * low) if is_thick else (np.sqrt(inside),)
+        self._by_angle, self._by_wavelength = _phase_factors(q2, 2.0 * thickness, wavelength)
+        if np.any(n3.imag):
+            of: Any = _on_absorber
+            q3: Any = normal_index(normal_index_squared(n3, n1, c1))
+        else:  # what a real base reflects in total enters it nowhere: Re q₃ = 0
+            of, n3 = _on_dielectric, n3.real
+            q3 = np.sqrt(np.maximum(normal_index_squared_real(n3, n1, c1), 0.0))
+        y1, y2 = n1 * c1, q2[0]
+        share = np.where(is_mirror, 0.0, 2.0)  # half of 4: the mean of both polarisations
+        s = of(share, y1, sign, y2, q3)
+        p = of(share, y1 / (n1 * n1), sign, y2 / (n2 * n2), q3 / (n3 * n3))
+        # κ/2, h² and, where a base absorbs, g: of s, then of p
+        self._coefficients = _table(*s, *p)
+
+    def reflectances(self, *, mean: bool) -> list[Float64]:
+        """Return [(R_s + R_p)/2] or [R_s, R_p], each of `shape`."""
+        shape = self.shape or (1,)
+        answers = [np.zeros(shape) for _ in range(1 if mean else 2)]
+        axes, rows = len(shape), len(self._coefficients)
+        space = np.zeros((0, 0))
+        for piece in blocks(shape):
+            pieces = [each[piece] for each in answers]
+            if space.shape[1] < pieces[0].size:
+                space = np.zeros((rows + 3, pieces[0].size))
+            work = space[:, : pieces[0].size].reshape(rows + 3, *pieces[0].shape)
+            # Written out: numpy's loops over broadcast arrays take three times as long.
+            np.copyto(work[:rows], part(self._coefficients, piece, axes))
+            sign = None if self._sign is None else part(self._sign, piece, axes)[0]
+            a, b = (part(each, piece, axes) for each in (self._by_angle, self._by_wavelength))
+            _write_tangent(a, b, sign, *work[rows:])
+            s, p = _entering(work[:rows], work[rows], sign, work[rows + 1])
+            for answer, half, other in zip(pieces, (s, p), (p if mean else s, p), strict=False):
+                half += other
+                np.subtract(1.0, half, out=answer)
+                np.maximum(
+                    answer, 0.0, out=answer
+                )  # a last bit below is rounding, where nothing is reflected
+        return [answer.reshape(self.shape) for answer in answers]
 
 
-def tangent_over_q(q2_squared: ArrayLike, path_per_wavelength: ArrayLike) -> Float64:
-    """Return tan β/q₂ with β = 2π (d/λ) q₂; real also for a frustrated film, whose q₂ is imaginary.
-
-    q2_squared : (...); path_per_wavelength : d/λ, (...).
-    """
-    squared = np.asarray(q2_squared, dtype=np.float64)
-    path = 2.0 * np.asarray(path_per_wavelength, dtype=np.float64)
-    q2 = np.sqrt(np.abs(squared))
-    half_turns = path * q2  # β/π
-    # Whole half turns change nothing; taken off before π is multiplied in, they cost no digits.
-    turned = np.tan(np.pi * (half_turns - np.rint(half_turns)))
-    if np.any(squared < 0.0):
-        turned = np.where(squared < 0.0, np.tanh(np.pi * half_turns), turned)
-    is_flat = q2 == 0.0
-    if np.any(is_flat):  # tan β/q₂ → 2πd/λ for light that just grazes inside the film
-        return np.asarray(np.where(is_flat, np.pi * path, turned / np.where(is_flat, 1.0, q2)))
-    return np.asarray(turned / q2)
+def _on_dielectric(share: Any, y1: Any, sign: Any, y2: Any, y3: Any) -> tuple[Any, Any]:
+    """Return share·κ/4 and h²."""
+    total = y1 + y3
+    h = (sign * (y2 * y2) + y1 * y3) / (y2 * total)
+    return share * y1 * y3 / (total * total), h * h
 
 
-def _affine(coefficients: tuple[Any, Any], u: Float64) -> Float64:
-    return np.asarray(coefficients[0] + coefficients[1] * u)
+def _on_absorber(share: Any, y1: Any, sign: Any, y2: Any, y3: Any) -> tuple[Any, Any, Any]:
+    """Return share·κ/4, h² and g."""
+    x3, z3 = np.maximum(y3.real, 0.0), y3.imag  # a last bit below 0 would be light from inside
+    total, absorbed, inside = y1 + x3, z3 * z3, sign * (y2 * y2)
+    size = total * total + absorbed
+    scale = 1.0 / (y2 * size)
+    h = ((inside + y1 * x3) * total + y1 * absorbed) * scale
+    return share * y1 * x3 / size, h * h, (y1 * y1 - inside) * z3 * scale
+
+
+def _phase_factors(q2: tuple[Any, ...], twice_nm: Float64, wavelength: Float64) -> tuple[Float64, Float64]:
+    """Return what `_write_tangent` multiplies: of the angle and the wavelength, the thickness with either."""
+    is_thick = len(q2) > 1
+    per_nm = reciprocal(wavelength) if is_thick else (1.0 / wavelength,)
+    # The thickness goes with the angles, unless that would make a whole grid of them.
+    together = np.broadcast_shapes(np.shape(q2[0]), twice_nm.shape)
+    if np.prod(together) <= max(np.size(q2[0]), wavelength.size):
+        q2 = _times(q2, twice_nm)
+    else:
+        per_nm = _times(per_nm, twice_nm)
+    if is_thick:
+        return _table(*_halves(*q2)), _table(*_halves(*per_nm))
+    return _table(np.pi * q2[0]), _table(per_nm[0])
+
+
+def _write_tangent(a: Float64, b: Float64, sign: Float64 | None, t: Float64, *spare: Float64) -> None:
+    """Write tan β into t, tanh where `sign` is negative; for many turns, those come off an exact product."""
+    rest, whole = spare
+    np.multiply(a[0], b[0], out=t)
+    if len(a) > 1:
+        np.rint(t, out=whole)
+        np.multiply(a[0], b[1], out=rest)
+        if sign is not None:  # tanh knows no turns
+            whole *= sign > 0.0
+        t -= whole
+        t += rest
+        t += np.multiply(a[1], b[2], out=rest)
+        t *= np.pi
+    fading = None if sign is None else np.tanh(t)
+    np.tan(t, out=t)
+    if sign is not None and fading is not None:
+        np.copyto(t, fading, where=sign < 0.0)
+
+
+def _entering(
+    coefficients: Float64, t: Float64, sign: Float64 | None, square: Float64
+) -> tuple[Float64, Float64]:
+    """Return half of what enters the base, in s and in p, for the tangent t; overwrites its arguments."""
+    np.multiply(t, t, out=square)
+    half = len(coefficients) // 2
+    s, p = coefficients[:half], coefficients[half:]
+    for entering, h_squared, *g in (s, p):
+        h_squared *= square
+        if g:
+            resonance = np.multiply(g[0], t, out=g[0])
+            resonance += 1.0
+            h_squared += np.multiply(resonance, resonance, out=resonance)
+        else:
+            h_squared += 1.0
+        entering /= h_squared
+    if sign is not None:
+        square *= sign
+    square += 1.0
+    for entering in (s[0], p[0]):
+        entering *= square
+    return s[0], p[0]
+
+
+def _times(number: tuple[Any, ...], factor: Any) -> tuple[Any, ...]:
+    if len(number) == 1:
+        return (number[0] * factor,)
+    product, low = exact_product(number[0], factor)
+    return product, low + number[1] * factor
+
+
+def _halves(value: Any, low: Any) -> tuple[Any, Any, Any]:
+    """Return the first 26 bits of value + low, the rest, and both together."""
+    first, second = split(value)
+    return first, second + low, value
+
+
+def _table(*rows: Any) -> Float64:
+    table = np.zeros((len(rows), *np.broadcast_shapes(*(np.shape(row) for row in rows))))
+    for i, row in enumerate(rows):
+        table[i] = row
+    return table

@@ -7,9 +7,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["cos_theta_2_squared", "normal_index", "normal_index_squared"]
+from gltf_iri.optics.two_floats import exact_product, exact_sum
 
-_SPLITTER = 2.0**27 + 1.0  # Veltkamp's constant for float64: halves of 26 bits
+__all__ = ["cos_theta_2_squared", "normal_index", "normal_index_squared"]
+__all__ += ["normal_index_squared_exact", "normal_index_squared_real"]
 
 
 def cos_theta_2_squared(
@@ -30,24 +31,45 @@ def normal_index_squared(
     """Return q² = (n cos θ)² = n² − n₁² sin²θ₁ in a medium of index n = `index` (real or complex).
 
     Near the critical angle and near equal indices the terms cancel; exact products (Dekker 1971, Kahan's
-    difference of products) keep every digit of q² that the inputs determine.
+    difference of products) then keep every digit of q² that the inputs determine.
     """
     n = np.asarray(index, dtype=np.complex128)
-    n1 = np.asarray(outside_ior, dtype=np.float64)
-    c1 = np.asarray(cos_theta_1, dtype=np.float64)
-    n1c1, n1c1_low = _exact_product(n1, c1)
-    terms = [
-        _exact_product(n.real, n.real),
-        _negated(_exact_product(n1, n1)),
-        _exact_product(n1c1, n1c1),
-        (2.0 * n1c1 * n1c1_low, np.zeros(())),
-        _negated(_exact_product(n.imag, n.imag)),
-    ]
-    total, low = terms[0]
-    for high_part, low_part in terms[1:]:
-        total, error = _exact_sum(total, high_part)
-        low = low + (error + low_part)
-    return np.asarray((total + low) + 2j * n.real * n.imag)
+    outside_ior = np.asarray(outside_ior, dtype=np.float64)
+    imaginary = 2j * n.real * n.imag
+    if np.all(n.real >= outside_ior):  # nothing cancels, or next to a larger imaginary part
+        return np.asarray((_rising(n.real, outside_ior, cos_theta_1) - n.imag * n.imag) + imaginary)
+    extinction = exact_product(n.imag, n.imag)
+    total, low = normal_index_squared_exact(n.real, outside_ior, cos_theta_1)
+    total, error = exact_sum(total, -extinction[0])
+    return np.asarray((total + (low + (error - extinction[1]))) + imaginary)
+
+
+def normal_index_squared_real(index: ArrayLike, outside_ior: ArrayLike, cos_theta_1: ArrayLike) -> Any:
+    """Return q² of a medium of real index, as accurate as `normal_index_squared`."""
+    n, n1 = np.asarray(index, dtype=np.float64), np.asarray(outside_ior, dtype=np.float64)
+    return (
+        _rising(n, n1, cos_theta_1) if np.all(n >= n1) else normal_index_squared_exact(n, n1, cos_theta_1)[0]
+    )
+
+
+def normal_index_squared_exact(
+    index: ArrayLike, outside_ior: ArrayLike, cos_theta_1: ArrayLike
+) -> tuple[Any, Any]:
+    """Return q² of a medium of real index as two floats, whose sum has twice the digits of float64."""
+    n, n1, c1 = (np.asarray(a, dtype=np.float64) for a in (index, outside_ior, cos_theta_1))
+    n1c1, n1c1_low = exact_product(n1, c1)
+    nn, n1n1, tilted = (exact_product(a, a) for a in (n, n1, n1c1))
+    total, error = exact_sum(nn[0], -n1n1[0])
+    low = nn[1] + (error - n1n1[1])
+    total, error = exact_sum(total, tilted[0])
+    low = low + (error + (tilted[1] + 2.0 * n1c1 * n1c1_low))
+    return exact_sum(total, low)
+
+
+def _rising(index: Any, outside_ior: Any, cos_theta_1: Any) -> Any:
+    """Return (n − n₁)(n + n₁) + n₁² cos²θ₁, in which nothing cancels for n ≥ n₁."""
+    q1 = outside_ior * np.asarray(cos_theta_1, dtype=np.float64)
+    return (index - outside_ior) * (index + outside_ior) + q1 * q1
 
 
 def normal_index(squared: ArrayLike) -> NDArray[np.complex128]:
@@ -55,22 +77,3 @@ def normal_index(squared: ArrayLike) -> NDArray[np.complex128]:
     root = np.sqrt(np.asarray(squared, dtype=np.complex128))
     # A negative zero imaginary part puts the principal root on the growing wave's side.
     return np.asarray(np.abs(root.real) + 1j * np.abs(root.imag))
-
-
-def _exact_product(a: Any, b: Any) -> tuple[Any, Any]:
-    product = a * b
-    a_high = a * _SPLITTER - (a * _SPLITTER - a)
-    b_high = b * _SPLITTER - (b * _SPLITTER - b)
-    a_low, b_low = a - a_high, b - b_high
-    error = ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
-    return product, error
-
-
-def _exact_sum(a: Any, b: Any) -> tuple[Any, Any]:
-    total = a + b
-    b_seen = total - a
-    return total, (a - (total - b_seen)) + (b - b_seen)
-
-
-def _negated(pair: tuple[Any, Any]) -> tuple[Any, Any]:
-    return -pair[0], -pair[1]
