@@ -13,9 +13,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gltf_iri.optics.bragg_cell import Cell, cell_optics, film_optics, host_optics
+from gltf_iri.backends import Backend
+from gltf_iri.optics.bragg_cell import Cell, Films, Host, cell_optics, film_optics, host_optics
 from gltf_iri.optics.grid import Grid, Tile
 from gltf_iri.optics.lossy_bragg import lossy_powers
+from gltf_iri.optics.two_floats import reciprocal
 from gltf_iri.optics.yeh import SCRATCH_ARRAYS, half_phases, transmittance
 
 __all__ = ["BraggPowers", "Cell", "bragg_powers", "bragg_reflectance", "cell_optics"]
@@ -43,21 +45,27 @@ def bragg_reflectance(
     cells: ArrayLike,
     wavelength_nm: ArrayLike,
     cos_theta_h: ArrayLike,
+    *,
+    backend: Backend = "numpy",
 ) -> Float64:
     """Return the mean of R_s and R_p, in [0, 1]; arrays broadcast, NaN gives NaN.
 
     host_ior : real; n1, n2 : n + ik, k ≥ 0; cells : whole numbers ≥ 1. Fast where the last axis is that of
-    the wavelengths and every other argument has length 1 there.
+    the wavelengths and every other argument has length 1 there. Cells that absorb are numpy's on either
+    backend.
     """
     grid = Grid(wavelength_nm, (host_ior, n1, n2, d1_nm, d2_nm, cells, cos_theta_h), SCRATCH_ARRAYS)
-    reflected = grid.zeros()
+    reflected = grid.zeros(is_turned=backend == "numpy")
     for tile, powers in _lossy_tiles(grid):
         tile.put(0.5 * (powers.R_s + powers.R_p), reflected)
-    for tile, t_s, t_p in _lossless_tiles(grid):
-        mean = np.add(t_s, t_p, out=t_s)
-        mean *= -0.5
-        mean += 1.0
-        tile.put(mean, reflected)
+    if backend == "numba":
+        _reflect_compiled(grid, reflected)
+    else:
+        for tile, t_s, t_p in _lossless_tiles(grid):
+            mean = np.add(t_s, t_p, out=t_s)
+            mean *= -0.5
+            mean += 1.0
+            tile.put(mean, reflected)
     return grid.shaped(reflected)
 
 
@@ -89,7 +97,7 @@ def bragg_powers(
 def _lossy_tiles(grid: Grid) -> Iterator[tuple[Tile, BraggPowers]]:
     """Yield the tiles whose cells absorb."""
     host, n1, n2, d1, d2, cells, cosine = grid.columns
-    for tile in grid.tiles(grid.rows_where((n1.imag != 0.0) | (n2.imag != 0.0))):
+    for tile in grid.tiles(grid.rows_where(~((n1.imag == 0.0) & (n2.imag == 0.0)))):
         of = tile.of_rows
         shares = lossy_powers(
             of(host), of(n1), of(n2), of(d1), of(d2), of(cells), tile.wavelength_nm, of(cosine)
@@ -99,24 +107,20 @@ def _lossy_tiles(grid: Grid) -> Iterator[tuple[Tile, BraggPowers]]:
 
 def _lossless_tiles(grid: Grid) -> Iterator[tuple[Tile, Float64, Float64]]:
     """Yield the tiles whose cells do not absorb, with T_s and T_p."""
-    host, n1, n2, d1, d2, cells, cosine = grid.columns
-    is_lossy = (n1.imag != 0.0) | (n2.imag != 0.0)
-    if is_lossy.all():
-        return
-    films = film_optics(host, n1.real, n2.real, d1, d2, cosine)
-    under = None if np.all(host == n1) else host_optics(host, n1.real, cosine)
+    is_lossless, films, host = _constants(grid)
+    cells = grid.columns[5]
     # One number for all is doubled along its own bits; else every row goes through the bits of the greatest.
     count = int(cells[0]) if np.all(cells == cells[:1]) else None
     for is_fading in (False, True):
-        rows = grid.rows_where(~(is_lossy | films.fades_in_1) & (films.fades_in_2 == is_fading))
+        rows = grid.rows_where(is_lossless & ~films.fades_in_1 & (films.fades_in_2 == is_fading))
         for tile in grid.tiles(rows):
             of, scratch = tile.of_rows, tile.scratch
             phases = half_phases(
                 of(films.path_1_nm), of(films.path_2_nm), tile.wavelength_nm, scratch, is_frustrated=is_fading
             )
             number = of(cells.astype(np.int64)) if count is None else count
-            host_s = None if under is None else (of(under.r_s), of(under.t_s))
-            host_p = None if under is None else (of(under.r_p), of(under.t_p))
+            host_s = None if host is None else (of(host.r_s), of(host.t_s))
+            host_p = None if host is None else (of(host.r_p), of(host.t_p))
             with np.errstate(over="ignore"):  # deep in a gap R/T overflows, and T is 0
                 t_s = transmittance(
                     phases, of(films.contrast_s), of(films.imbalance_s), number, host_s, scratch
@@ -125,7 +129,38 @@ def _lossless_tiles(grid: Grid) -> Iterator[tuple[Tile, Float64, Float64]]:
                     phases, of(films.contrast_p), of(films.imbalance_p), number, host_p, scratch
                 )
             yield tile, t_s, t_p
-    for tile in grid.tiles(grid.rows_where(~is_lossy & films.fades_in_1)):
+    _, _, n2, d1, d2, _, _ = grid.columns
+    for tile in grid.tiles(grid.rows_where(is_lossless & films.fades_in_1)):
         # Light fades in n1 and beyond the mirror: all is reflected; only a NaN passes.
         nothing = 0.0 * (tile.of_rows(n2.real + d1 + d2) * tile.wavelength_nm)
         yield tile, nothing, nothing.copy()
+
+
+def _reflect_compiled(grid: Grid, reflected: Float64) -> None:
+    """Put the mean of R_s and R_p of the cells that do not absorb into `reflected`, by compiled loops."""
+    from gltf_iri.compiled.bragg import bragg_rows, bragg_rows_in_host
+
+    is_lossless, films, host = _constants(grid)
+    rows = grid.rows_where(is_lossless)
+    constants = grid.table(films[:6], rows)
+    cells = grid.table(grid.columns[5:6], rows)[0].astype(np.int64)
+    waves = np.array(reciprocal(grid.wavelengths_of(rows)))
+    values = reflected if isinstance(rows, slice) else np.zeros((len(cells), waves.shape[-1]))
+    if host is None and not films.fades_in_2.any():
+        bragg_rows(constants, cells, waves, values)
+    else:
+        under = host or host_optics(*(grid.columns[c].real for c in (0, 1, 6)))
+        fades_in_2 = grid.table((films.fades_in_2,), rows)[0] != 0.0
+        bragg_rows_in_host(constants, fades_in_2, grid.table(under, rows), cells, waves, values)
+    if films.fades_in_1.any():
+        values[grid.table((films.fades_in_1,), rows)[0] != 0.0] = 1.0
+    if values is not reflected:
+        reflected[rows] = values
+
+
+def _constants(grid: Grid) -> tuple[NDArray[np.bool_], Films, Host | None]:
+    """Return which rows absorb nothing, their films' constants, and their host's where one is not n1."""
+    host, n1, n2, d1, d2, _, cosine = grid.columns
+    is_lossless = (n1.imag == 0.0) & (n2.imag == 0.0)
+    films = film_optics(host, n1.real, n2.real, d1, d2, cosine)
+    return is_lossless, films, None if np.all(host == n1) else host_optics(host, n1.real, cosine)

@@ -65,9 +65,9 @@ class Grid:
         self._is_turned = is_shared and self.count > self._width
         self._scratch_arrays = scratch_arrays
 
-    def zeros(self) -> Float64:
-        """Return an array for a result, rows × wavelengths."""
-        return np.zeros((self.count, self._width), order="F" if self._is_turned else "C")
+    def zeros(self, *, is_turned: bool = True) -> Float64:
+        """Return an array for a result, rows × wavelengths, whose memory lies as tiles do if `is_turned`."""
+        return np.zeros((self.count, self._width), order="F" if self._is_turned and is_turned else "C")
 
     def shaped(self, values: Float64) -> Float64:
         """Return rows × wavelengths in the arguments' broadcast shape."""
@@ -78,6 +78,17 @@ class Grid:
         if mask.all():
             return slice(0, self.count)
         return np.flatnonzero(np.broadcast_to(mask, (self.count,))) if mask.any() else slice(0, 0)
+
+    def table(self, values: Sequence[NDArray[Any]], rows: Rows) -> Float64:
+        """Return (values, rows) of arrays (count,), or (1,) for all."""
+        table = np.zeros((len(values), rows.stop if isinstance(rows, slice) else len(rows)))
+        for line, each in zip(table, values, strict=True):
+            line[:] = each if each.shape == (1,) else each[rows]
+        return table
+
+    def wavelengths_of(self, rows: Rows) -> Float64:
+        """Return the wavelengths (1 or rows, k), one row where all rows share them."""
+        return self._wavelength_nm if len(self._wavelength_nm) == 1 else self._wavelength_nm[rows]
 
     def tiles(self, rows: Rows) -> Iterator[Tile]:
         """Yield tiles that together cover `rows` at every wavelength."""
