@@ -10,6 +10,10 @@ from typing import Final
 __all__ = [
     "COLOUR_CONVERGENCE",
     "GLSL_BRANCH_ULP",
+    "GLSL_LANDMARKS_GRAZING_MAX_ABS",
+    "GLSL_LANDMARKS_HALVED_MAX_ABS",
+    "GLSL_LANDMARKS_MAX_ABS",
+    "GLSL_LANDMARKS_THICK_MAX_ABS",
     "GLSL_OPTICS_MAX_ABS",
     "GLSL_PIXEL_RELATIVE",
     "GLSL_PIXEL_ROUGHNESS_MIN",
@@ -38,6 +42,15 @@ GLSL_OPTICS_MAX_ABS: Final = 5e-6
 
 # Rows so close to one of the text's own branches (film index = base index, …) may fall on either side.
 GLSL_BRANCH_ULP: Final = 8
+
+# Mirrors by landmarks: some twenty boxes, each two looked-up integrals and an envelope of float32. In cells
+# of 0.1 mm the gaps lie a thousand modes up, where float32 places them to 1e-4. Where grazing light (cosθ
+# below 1e-3) meets a film of 1e-6 nm, r12 differs from 1 by less than float32 sees. A halving that compares
+# two equal numbers may go either way, and leaves the landmark a thousandth of a mode off.
+GLSL_LANDMARKS_MAX_ABS: Final = 1e-5
+GLSL_LANDMARKS_THICK_MAX_ABS: Final = 1e-4
+GLSL_LANDMARKS_GRAZING_MAX_ABS: Final = 4e-3
+GLSL_LANDMARKS_HALVED_MAX_ABS: Final = 6e-3
 
 # A whole shaded pixel, relative to max(1, value): the GGX lobe amplifies the rounding of N·H by 1/α².
 GLSL_PIXEL_RELATIVE: Final = 2e-4

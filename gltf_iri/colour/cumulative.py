@@ -20,7 +20,7 @@ __all__ = ["CUMULATIVE_STEPS", "FIRST_PER_NM", "STEPS_NM", "cumulative_colour", 
 
 Float64 = NDArray[np.float64]
 
-# Linear between so many equal steps of ν: within 2e-5 of the integral, far below what landmarks can promise.
+# Linear between so many equal steps of ν: within 3e-5 of the integral, far below what landmarks can promise.
 CUMULATIVE_STEPS: Final = 1024
 
 _SHORTEST_NM, _LONGEST_NM = WAVELENGTH_RANGE_NM

@@ -17,7 +17,7 @@ from gltf_iri.compiled.sincos import sincos_turns
 __all__ = ["landmark_search", "landmark_transmittances"]
 
 _BANDS_AT_ONCE = 264  # more than a lane ever has: MODES_MAX + 1 of optics/landmarks.py
-_BOXES_PER_BAND = 15  # three, each in at most five parts
+_BOXES_PER_BAND = 3  # each in at most `subdivisions` parts
 _TINY = 1e-150
 _SHORTEST_NM = 360.0
 _LONGEST_NM = 830.0
@@ -168,7 +168,7 @@ def landmark_transmittances(
     capacity = _BANDS_AT_ONCE
     owner = np.zeros(capacity, np.int64)
     bands, found, root = np.zeros((4, capacity)), np.zeros((3, capacity)), np.zeros((5, 3 * capacity))
-    many = _BOXES_PER_BAND * capacity
+    many = _BOXES_PER_BAND * max(subdivisions, 1) * capacity
     box_lane, box = np.zeros(many, np.int64), np.zeros((9, many))
     lane = 0
     while lane < path_nm.shape[0]:
