@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.compiled.loops import inline, loop
 from gltf_iri.compiled.refraction import normal_index_of, normal_index_squared
-from gltf_iri.compiled.sincos import cosine_of_octant, sine_of_octant
+from gltf_iri.compiled.sincos import sine_of_octant, sine_of_quadrant
 from gltf_iri.compiled.two_floats import exact_product, ratio, split, square_root
 
 __all__ = ["film_reflectance"]
@@ -22,6 +22,7 @@ Float64 = NDArray[np.float64]
 
 _NO_INDEX = 1e-150
 _GRAZING = 1e-40
+_VECTOR = 8  # numbers that the widest vector instructions take at once; rows are padded to full vectors
 
 
 def film_reflectance(
@@ -72,7 +73,8 @@ def film_reflectance(
 @loop
 def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
     count = columns.shape[1]
-    first, second, whole = np.zeros(count), np.zeros(count), np.zeros(count)
+    padded = -(-count // _VECTOR) * _VECTOR if count > 1 else count
+    first, second, whole, line = np.zeros(padded), np.zeros(padded), np.zeros(padded), np.zeros(padded)
     for j in range(count):
         value, low = ratio(columns[0, j], columns[1, j])
         high, rest = split(value)
@@ -104,13 +106,13 @@ def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
         high, rest = split(value)
         rest += low + (q2_low * twice + q2 * twice_low)
         if sign < 0.0:
-            for j in range(count):
+            for j in range(padded):
                 t = math.tanh(math.pi * (value * whole[j]))
                 inside = 1.0 - t * t
                 d_s, d_p = (1.0 + g_s * t) ** 2 + h_s * t * t, (1.0 + g_p * t) ** 2 + h_p * t * t
-                reflectance[i, j] = _without(k_s * inside / d_s + k_p * inside / d_p)
+                line[j] = _without(k_s * inside / d_s + k_p * inside / d_p)
         elif g_s == 0.0 and g_p == 0.0:
-            for j in range(count):
+            for j in range(padded):
                 turns = high * first[j]
                 x = abs((turns - np.rint(turns)) + (high * second[j] + rest * whole[j]))
                 is_steep = x > 0.25
@@ -120,22 +122,18 @@ def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
                 sine_squared = large if is_steep else small
                 cosine_squared = small if is_steep else large
                 d_s, d_p = cosine_squared + h_s * sine_squared, cosine_squared + h_p * sine_squared
-                reflectance[i, j] = _without((k_s * d_p + k_p * d_s) / (d_s * d_p))
+                line[j] = _without((k_s * d_p + k_p * d_s) / (d_s * d_p))
         else:
-            for j in range(count):
+            for j in range(padded):
                 turns = high * first[j]
                 x = (turns - np.rint(turns)) + (high * second[j] + rest * whole[j])
-                size = abs(x)
-                is_steep = size > 0.25
-                octant = 0.5 * (0.5 - size if is_steep else size)
-                small, large = sine_of_octant(octant), cosine_of_octant(octant)
-                sine = large if is_steep else small
-                cosine = small if is_steep else large
-                signed = -sine if x < 0.0 else sine
-                through_s, through_p = cosine + g_s * signed, cosine + g_p * signed
+                sine, cosine = sine_of_quadrant(0.5 * x), sine_of_quadrant(0.25 - 0.5 * abs(x))
+                through_s, through_p = cosine + g_s * sine, cosine + g_p * sine
                 d_s = through_s * through_s + h_s * (sine * sine)
                 d_p = through_p * through_p + h_p * (sine * sine)
-                reflectance[i, j] = _without((k_s * d_p + k_p * d_s) / (d_s * d_p))
+                line[j] = _without((k_s * d_p + k_p * d_s) / (d_s * d_p))
+        for j in range(count):
+            reflectance[i, j] = line[j]
 
 
 @inline

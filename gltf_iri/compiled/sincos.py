@@ -6,7 +6,7 @@ import numpy as np
 
 from gltf_iri.compiled.loops import inline
 
-__all__ = ["cosine_of_octant", "sincos_turns", "sine_of_octant"]
+__all__ = ["cosine_of_octant", "sincos_turns", "sine_of_octant", "sine_of_quadrant"]
 
 
 @inline
@@ -42,3 +42,13 @@ def cosine_of_octant(turns: float) -> float:
     p = -26.426253275854723 + s * (7.903206911569678 + s * -1.6990343940660637)
     p = -85.4568172066438 + s * (60.24464135270201 + s * p)
     return 1.0 + s * (-19.739208802178716 + s * (64.93939402266824 + s * p))
+
+
+@inline
+def sine_of_quadrant(turns: float) -> float:
+    """Return sin(2πt) for |t| ≤ 1/4: sin(2πt)/t as a Chebyshev interpolation in t², truncated below 1e-18."""
+    s = turns * turns
+    p = 3.8199280942271643 + s * (-0.7177337921413454 + s * 0.10089695501646812)
+    p = 42.058693925428685 + s * (-15.0946416761179 + s * p)
+    p = 81.60524927607362 + s * (-76.70585975282492 + s * p)
+    return turns * (6.283185307179586 + s * (-41.341702240399755 + s * p))
