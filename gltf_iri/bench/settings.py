@@ -13,7 +13,7 @@ Settings = Mapping[str, ParameterValue]
 
 # Beside the defaults, which come first for every method.
 SETTINGS: Final[Mapping[str, tuple[Settings, ...]]] = {
-    "bloch": ({"samples": 24}, {"samples": 32}),
+    "bloch": ({"samples": 12}, {"samples": 24}),
     "landmarks-sub": (
         *({"subdivisions": s} for s in (2, 4, 5)),
         *({"root_finder": finder} for finder in ("newton-1", "bisect-10")),

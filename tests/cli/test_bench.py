@@ -1,23 +1,64 @@
-"""`gltf-iri bench`: the contract of its JSON."""
+"""`gltf-iri bench`: the contract of its JSON, and what it refuses."""
 
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import pytest
 
+from gltf_iri.bench.films import FILM_WORKLOADS
+from gltf_iri.bench.workloads import WORKLOADS
+from gltf_iri.cli import bench
 from gltf_iri.cli.main import run
 
 CONTRACT = {"workload", "method", "backend", "ns_per_eval", "max_abs", "delta_e_mean", "delta_e_p95"}
 
 
-def test_rows_keep_the_contract(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["bench", "films", "--json"]) == 0
-    rows = json.loads(capsys.readouterr().out)["rows"]
-    assert len(rows) == len({row["method"] for row in rows}) >= 6
+def test_rows_of_films_keep_the_contract(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["bench", "films", "--rounds", "1", "--json"]) == 0
+    report = json.loads(capsys.readouterr().out)
+    rows = report["rows"]
+    names = {(row["method"], row["backend"], json.dumps(row["parameters"])) for row in rows}
+    assert len(rows) == len(names) >= 6
     assert all(set(row) >= CONTRACT and row["workload"] == "films" for row in rows)
+    assert report["machine"]["numpy"]
 
 
-def test_unknown_workload_is_refused(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["bench", "nothing"]) == 2
-    assert "films" in capsys.readouterr().err
+def test_rows_of_optics_keep_the_contract(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    plot = tmp_path / "bench.png"
+    assert run(["bench", "W1", "--rounds", "1", "--json", "--plot", str(plot)]) == 0
+    report = json.loads(capsys.readouterr().out)
+    assert report["rows"]
+    assert all(set(row) >= CONTRACT and row["workload"] == "W1" for row in report["rows"])
+    assert all(row["is_correct"] for row in report["rows"])
+    assert report["machine"]["threads"] == 1
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_names_are_those_of_the_workloads() -> None:
+    assert tuple(WORKLOADS) == bench.OPTICS
+    assert tuple(FILM_WORKLOADS) == bench.FILMS
+
+
+def test_a_table_names_machine_and_methods(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["bench", "W1", "--rounds", "1"]) == 0
+    printed = capsys.readouterr().out
+    assert "50 digits" in printed
+    assert "AVX-512" in printed
+    assert "stack" in printed
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["nothing"], "films"),
+        (["films", "--peers"], "optics"),
+        (["films", "--plot", "x.png"], "optics"),
+        (["films", "--rounds", "0"], "rounds"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else None,
+)
+def test_wrong_calls_are_refused(arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["bench", *arguments]) == 2
+    assert says in capsys.readouterr().err
