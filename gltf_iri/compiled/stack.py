@@ -40,6 +40,9 @@ _THROUGH, _FIELDS = 8, 10
 
 def stack_power_compiled(layers: Layers) -> tuple[Float64, Float64, Float64, Float64]:
     """Return R_s, R_p, T_s, T_p, each of `layers.shape`."""
+    if 0 in layers.shape:
+        nothing = np.zeros(layers.shape)
+        return nothing, nothing, nothing, nothing
     shape = (1,) * (3 - len(layers.shape)) + layers.shape
     longest = int(np.argmax(shape))  # is laid along the lanes
     moved = (*shape[:longest], *shape[longest + 1 :], shape[longest])
@@ -64,59 +67,68 @@ def _laid_out(table: Float64, longest: int, moved: tuple[int, ...]) -> Float64:
     return np.ascontiguousarray(padded.reshape(*table.shape[:2], -1, *padded.shape[-2:]))
 
 
-@inline
-def _row(table: Float64, a: int, b: int) -> Float64:
-    return table[a if table.shape[0] > 1 else 0, b if table.shape[1] > 1 else 0]
-
-
-@inline
-def _fill(out: Float64, first: int, row: Float64, start: int, count: int) -> None:
-    if row.size == 1:
-        for i in range(count):
-            out[first + i] = row[0]
-    else:
-        for i in range(count):
-            out[first + i] = row[start + i]
-
-
 @loop
 def _powers(media: Float64, paths: Float64, fades: NDArray[np.bool_], powers: Float64) -> None:
     fields = np.zeros(_FIELDS * _L)
     medium = np.zeros(_MEDIA * _L)
+    outside = np.zeros(_MEDIA * _L)
     path = np.zeros(_L)
     wave = np.zeros(6 * _L)
     bits = np.zeros(_L, np.int64)
-    outside = np.zeros(_MEDIA * _L)
     last = media.shape[0] - 1
     for a in range(powers.shape[1]):
         for b in range(powers.shape[2]):
             for start in range(0, powers.shape[3], _L):
                 count = min(_L, powers.shape[3] - start)
-                for part in range(_MEDIA):
-                    _fill(medium, part * _L, _row(media[last, part], a, b), start, count)
-                    _fill(outside, part * _L, _row(media[0, part], a, b), start, count)
+                _fill(outside, media, 0, 1, a, b, start, count)
+                _fill(medium, media, last, 1, a, b, start, count)
                 _start(fields, medium, count)
                 for layer in range(last - 1, 0, -1):
-                    _fill(path, 0, _row(paths[layer - 1, 0], a, b), start, count)
+                    _fill(path, paths, layer - 1, 1, a, b, start, count)
                     if fades[layer]:
-                        for part in range(_MEDIA):
-                            _fill(medium, part * _L, _row(media[layer, part], a, b), start, count)
+                        _fill(medium, media, layer, 1, a, b, start, count)
                         _fading_wave(wave, bits, fields, medium, path, count)
                         _pass_fading(fields, medium, wave, count)
                     else:
-                        for part in range(0, _MEDIA, 2):
-                            _fill(medium, part * _L, _row(media[layer, part], a, b), start, count)
+                        _fill(medium, media, layer, 2, a, b, start, count)
                         _pass_running(fields, medium, path, count)
                     if layer % _SCALE_EVERY == 0:
                         _scale(fields, count)
-                for part in range(_MEDIA):
-                    _fill(medium, part * _L, _row(media[last, part], a, b), start, count)
+                _fill(medium, media, last, 1, a, b, start, count)
                 _finish(fields, outside, medium, count)
-                for which in range(4):
-                    powers[which, a, b, start : start + count] = fields[which * _L : which * _L + count]
+                _store(powers, fields, a, b, start, count)
 
 
-@inline
+@loop
+def _fill(
+    out: Float64, table: Float64, layer: int, step: int, a: int, b: int, start: int, count: int
+) -> None:
+    """Lay the parts of a layer, each `step`-th, along the lanes; axes of 1 stand for all."""
+    a = a if table.shape[2] > 1 else 0
+    b = b if table.shape[3] > 1 else 0
+    for part in range(0, table.shape[1], step):
+        lanes = out[part * _L : part * _L + count]
+        row = table[layer, part, a, b]
+        if row.size == 1:
+            value = row[0]
+            for i in range(count):
+                lanes[i] = value
+        else:
+            row = row[start : start + count]
+            for i in range(count):
+                lanes[i] = row[i]
+
+
+@loop
+def _store(powers: Float64, fields: Float64, a: int, b: int, start: int, count: int) -> None:
+    for which in range(powers.shape[0]):
+        lanes = fields[which * _L : which * _L + count]
+        row = powers[which, a, b, start : start + count]
+        for i in range(count):
+            row[i] = lanes[i]
+
+
+@loop
 def _start(fields: Float64, medium: Float64, count: int) -> None:
     for i in range(count):
         q_r, q_i, u_r, u_i = (
@@ -131,7 +143,7 @@ def _start(fields: Float64, medium: Float64, count: int) -> None:
         fields[_THROUGH * _L + i], fields[(_THROUGH + 1) * _L + i] = 1.0, 1.0
 
 
-@inline
+@loop
 def _pass_running(fields: Float64, medium: Float64, path: Float64, count: int) -> None:
     for i in range(count):
         sine, cosine = sincos_turns(path[i] * medium[_Q * _L + i])
@@ -146,7 +158,7 @@ def _pass_running(fields: Float64, medium: Float64, path: Float64, count: int) -
         fields[6 * _L + i], fields[7 * _L + i] = cosine * G_r + backward * E_i, cosine * G_i - backward * E_r
 
 
-@inline
+@loop
 def _fading_wave(
     wave: Float64, bits: Any, fields: Float64, medium: Float64, path: Float64, count: int
 ) -> None:
@@ -184,7 +196,7 @@ def _fading_wave(
         fields[(_THROUGH + 1) * _L + i] *= decay_squared
 
 
-@inline
+@loop
 def _pass_fading(fields: Float64, medium: Float64, wave: Float64, count: int) -> None:
     for i in range(count):
         c_r, c_i, f_r, f_i, b_r, b_i = (
@@ -211,7 +223,7 @@ def _pass_fading(fields: Float64, medium: Float64, wave: Float64, count: int) ->
         fields[7 * _L + i] = (c_r * G_i + c_i * G_r) + (b_r * E_i + b_i * E_r)
 
 
-@inline
+@loop
 def _scale(fields: Float64, count: int) -> None:
     for first in (0, 4):
         through = _THROUGH + first // 4
@@ -225,7 +237,7 @@ def _scale(fields: Float64, count: int) -> None:
             fields[through * _L + i] *= scale * scale
 
 
-@inline
+@loop
 def _finish(fields: Float64, outside: Float64, medium: Float64, count: int) -> None:
     """Set R_s, R_p, T_s and T_p in place of the first fields."""
     for i in range(count):

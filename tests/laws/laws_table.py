@@ -23,7 +23,7 @@ _SCHLICK = "Schlick's term takes the outside's cosine, from a denser outside too
 _ONE_WAVELENGTH = "one wavelength a channel: fringes never fade"
 _TWO_BEAMS = "two beams without inter-reflections are not a passive surface"
 _NO_BASE = "its base plays no part: the film's inner side reflects all that enters"
-_TWO_LOBES = "R + T = 1, and √(RT) is added: both lobes together pass 1"
+_TWO_LOBES = "R + T is nearly 1 before 2√(RT) is added: both lobes together pass 1"
 
 _FILMS: dict[str, Reasons] = {
     "khr": {
