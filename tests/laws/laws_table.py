@@ -54,6 +54,7 @@ _FILMS: dict[str, Reasons] = {
         "perfect mirror": _TWO_BEAMS,
         "no more than white": _TWO_BEAMS,
     },
+    "fourier": {},
     "spectral": {},
 }
 
@@ -88,12 +89,15 @@ TABLES: dict[str, Mapping[str, Law]] = {
     "wavelength": SPECTRAL_LAWS,
 }
 
+_TERM_BY_TERM = "its series is integrated over wavelengths term by term"
+
 # The one-wavelength subject that stands for a method, or why it has none.
 MADE_OF: dict[str, str] = {
-    "khr": "its series is integrated over wavelengths term by term",
-    "khr-guarded": "its series is integrated over wavelengths term by term",
+    "khr": _TERM_BY_TERM,
+    "khr-guarded": _TERM_BY_TERM,
     "granier-heidrich": "granier-heidrich",
     "naive-rgb": "naive-rgb",
+    "fourier": _TERM_BY_TERM,
     "smits-meyer": "its fringe is integrated over wavelengths as one cosine",
     "spectral": "optics/film",
     "yeh-spectral": "optics/bragg",
