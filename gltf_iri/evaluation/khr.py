@@ -12,6 +12,7 @@ from collections.abc import Callable
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gltf_iri.backends import Backend
 from gltf_iri.colour.sensitivity import eval_sensitivity
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Evaluation, Film
@@ -81,13 +82,27 @@ def iridescent_fresnel_khr(
     return np.asarray(np.where(cos2_sq < 0.0, 1.0, np.maximum(colour, 0.0)))
 
 
-def evaluate_khr(film: Film, white: White) -> Evaluation:
+def evaluate_khr(film: Film, white: White, backend: Backend = "numpy") -> Evaluation:
     """Evaluate `khr`; the text knows no illuminant, so the same numbers stand under either white."""
-    rgb = iridescent_fresnel_khr(
-        film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1
-    )
-    rgb = np.broadcast_to(rgb, (*film.shape, 3))
+    arguments = (film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1)
+    if backend == "numba":
+        rgb = _compiled(arguments, film.shape)
+    else:
+        rgb = np.broadcast_to(iridescent_fresnel_khr(*arguments), (*film.shape, 3))
     return Evaluation(rgb, "khr", white, undefined=_undefined(film))
+
+
+def _compiled(arguments: tuple[Float64, ...], shape: tuple[int, ...]) -> Float64:
+    from gltf_iri.compiled import khr
+
+    shapes = [shape, shape, (*shape, 3), shape, shape]
+    n1, n2, base_f0, d_nm, c1 = (
+        np.ascontiguousarray(np.broadcast_to(a, s)).reshape(-1)
+        for a, s in zip(arguments, shapes, strict=True)
+    )
+    rgb = np.zeros((*shape, 3))
+    khr.iridescent_fresnel_khr(n1, n2, base_f0, d_nm, c1, rgb.reshape(-1))
+    return rgb
 
 
 def khr_branch_distance_ulp(film: Film) -> Float64:

@@ -14,6 +14,7 @@ from gltf_iri.colour.spaces import WHITES
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.bloch import evaluate_bloch
 from gltf_iri.evaluation.film import Evaluation, Film
+from gltf_iri.evaluation.fourier import evaluate_fourier
 from gltf_iri.evaluation.granier_heidrich import evaluate_granier_heidrich
 from gltf_iri.evaluation.khr import evaluate_khr
 from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
@@ -38,6 +39,7 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
         "granier-heidrich": evaluate_granier_heidrich,
         "naive-rgb": evaluate_naive_rgb,
         "smits-meyer": evaluate_smits_meyer,
+        "fourier": evaluate_fourier,
         "spectral": evaluate_spectral,
         "yeh-spectral": evaluate_yeh_spectral,
         "landmarks": evaluate_landmarks,

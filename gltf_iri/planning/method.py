@@ -84,6 +84,7 @@ _FILM_METHODS = (
         is_truth=False,
         glsl_function="iridescent_fresnel_khr",
         delta_e_mean=3.86,
+        backends=("numpy", "numba"),
     ),
     Method(
         "khr-guarded",
@@ -127,6 +128,19 @@ _FILM_METHODS = (
         delta_e_mean=2.99,
     ),
     Method(
+        "fourier",
+        "film",
+        "The Fourier series of exact polarised interfaces, tabulated sensitivities, terms by an error bound.",
+        "Belcour & Barla 2017, Eq. 5-10; bound and table in gltf_iri/evaluation/fourier.py",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=0.0024,
+        parameters=(
+            Parameter("tolerance", "The most that the terms left out may add up to.", 1e-4, 1e-9, 0.1),
+        ),
+        backends=("numpy", "numba"),
+    ),
+    Method(
         "spectral",
         "film",
         "Exact Airy reflectance, both polarisations, integrated over the spectrum until it no longer moves.",
@@ -152,8 +166,9 @@ _MIRROR_METHODS: tuple[Method, ...] = (
         "Exact reflectance of the cells, both polarisations, integrated over the spectrum until it settles.",
         "Yeh 1988; Fourneau et al. 2024, Eq. 2-9, Appendix D",
         is_truth=True,
-        glsl_function=None,
+        glsl_function="mirror_colour_yeh_spectral",
         delta_e_mean=0.0,
+        glsl_tables=("spectral_rule",),
     ),
     Method(
         "landmarks",

@@ -1,0 +1,65 @@
+"""The exponential by a polynomial, in vector instructions; the C library's is called one by one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gltf_iri.compiled.loops import inline
+
+__all__ = ["exp_negative"]
+
+
+@inline
+def exp_negative(x: float) -> float:
+    """Return e^x for x ≤ 0 to 4e-16 of itself, 2⁻¹⁰²² below that; NaN gives NaN.
+
+    x = (n + f) ln 2 with a whole n and |f| ≤ ½: Taylor's series of e^(f ln 2) up to f¹² (rest below 2e-16),
+    times 2ⁿ, which is written into the bits of the exponent.
+    """
+    turns = x * 1.4426950408889634
+    # Keeps the exponent's bits within their field.
+    turns = -1022.0 if turns < -1022.0 else turns
+    whole = np.rint(turns)
+    f = (turns - whole) * 0.6931471805599453
+    series = 1.0 + f * (
+        1.0
+        + f
+        * (
+            0.5
+            + f
+            * (
+                0.16666666666666666
+                + f
+                * (
+                    0.041666666666666664
+                    + f
+                    * (
+                        0.008333333333333333
+                        + f
+                        * (
+                            0.001388888888888889
+                            + f
+                            * (
+                                0.0001984126984126984
+                                + f
+                                * (
+                                    2.48015873015873e-05
+                                    + f
+                                    * (
+                                        2.7557319223985893e-06
+                                        + f
+                                        * (
+                                            2.755731922398589e-07
+                                            + f * (2.505210838544172e-08 + f * 2.08767569878681e-09)
+                                        )
+                                    )
+                                )
+                            )
+                        )
+                    )
+                )
+            )
+        )
+    )
+    bits = (np.int64(whole) + np.int64(1023)) << np.int64(52)
+    return float(series * np.int64(bits).view(np.float64))

@@ -1,0 +1,155 @@
+"""Method `fourier`: the film's Fourier series, integrated over the spectrum term by term.
+
+    R_j = 1 − Σ_{s,p} G/2 (1 + 2 Σ_{m ≥ 1} Re(z^m Ŝ_j(mD)))
+
+Belcour & Barla 2017, Eq. 10, with G, z, H and D of `optics/film_series.py`: interfaces are exact, polarised
+and with their phases; Ŝ is tabulated. How many terms a film gets follows from a bound of what is left out,
+
+    Σ_{k ≥ m} |term k| ≤ b_m = Σ_{s,p} H |z|^m · sup_{D′ ≥ mD} |Ŝ(D′)|.
+
+With τ half the tolerance, term m counts fully while b_m ≥ 2τ, fades linearly in b_m and is gone at b_m = τ:
+what is missing stays below the tolerance, and no colour takes a step where a film gets a term more. On top
+come the table's error, and for fringes beyond its end Σ H |z|^m · `SensitivityTable.beyond`.
+
+Films that the series does not suit are integrated over wavelengths as the truth is, with the same indices:
+those thinner than THIN_OPD_NM (every order is in phase), frustrated ones, and resonators of nearly perfect
+mirrors whose bound asks for more than MAX_ORDERS terms.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.backends import Backend
+from gltf_iri.colour.sensitivity_table import CELLS, STEP_NM, sensitivity_table
+from gltf_iri.colour.spaces import White
+from gltf_iri.evaluation.dispersive import FilmBand, film_bands
+from gltf_iri.evaluation.film import Base, Evaluation, Film, Float64
+from gltf_iri.evaluation.spectral import evaluate_spectral
+from gltf_iri.optics.film_series import film_series
+
+__all__ = ["FOURIER_TOLERANCE", "MAX_ORDERS", "THIN_OPD_NM", "evaluate_fourier"]
+
+FOURIER_TOLERANCE: Final = 1e-4
+MAX_ORDERS: Final = 64
+THIN_OPD_NM: Final = 20.0
+
+_ROWS_AT_ONCE: Final = 2048  # keeps a block's temporaries in a core's cache
+
+
+def evaluate_fourier(
+    film: Film, white: White, tolerance: float = FOURIER_TOLERANCE, backend: Backend = "numpy"
+) -> Evaluation:
+    """Evaluate `fourier` under `white`.
+
+    tolerance : how much the terms left out may add up to, > 0, in each channel of the colour.
+    Where indices depend on the wavelength each channel takes its own (`gltf_iri.evaluation.dispersive`).
+    """
+    count = int(np.prod(film.shape, dtype=np.intp))
+    rgb = np.zeros((count, 3))
+    for band in film_bands(film, white):
+        colour, is_open = (_compiled if backend == "numba" else _by_blocks)(band, white, tolerance)
+        rgb[:, band.channels] = colour[:, band.channels]
+        rest = np.flatnonzero(is_open)
+        if len(rest) > 0:
+            rgb[rest, band.channels] = integrated_band(band.rows(rest), white)[:, band.channels]
+    return Evaluation(rgb.reshape(*film.shape, 3), "fourier", white)
+
+
+def integrated_band(band: FilmBand, white: White) -> Float64:
+    """Return the colours (r, 3) of a band's films by the truth's integration, at the band's own indices."""
+    index = np.repeat(np.asarray(band.base_index, dtype=np.complex128)[:, None], 3, axis=-1)
+    base = Base(np.zeros(index.shape), index)
+    film = Film(band.cos_theta_1, band.thickness_nm, band.film_ior, base, band.outside_ior)
+    return evaluate_spectral(film, white).rgb
+
+
+def _by_blocks(band: FilmBand, white: White, tolerance: float) -> tuple[Float64, NDArray[np.bool_]]:
+    """Return the colours (r, 3) of a band's films and which of them are still open (r,)."""
+    count = len(band.cos_theta_1)
+    rgb, is_open = np.zeros((count, 3)), np.zeros(count, dtype=np.bool_)
+    for start in range(0, count, _ROWS_AT_ONCE):
+        rows = slice(start, start + _ROWS_AT_ONCE)
+        rgb[rows], is_open[rows] = _sum_series(band.rows(rows), white, tolerance)
+    return rgb, is_open
+
+
+def _sum_series(band: FilmBand, white: White, tolerance: float) -> tuple[Float64, NDArray[np.bool_]]:
+    table = sensitivity_table(white)
+    series = film_series(band.outside_ior, band.film_ior, band.base_index, band.cos_theta_1)
+    step = 2.0 * band.thickness_nm * np.sqrt(np.maximum(series.q2_squared, 0.0)) / STEP_NM
+    is_open = ~(series.q2_squared > 0.0) | ~(step > THIN_OPD_NM / STEP_NM)
+    is_complex = np.iscomplexobj(series.ratio)
+    rgb = np.repeat((1.0 - (series.entering[0] + series.entering[1]))[:, None], 3, axis=-1)
+
+    # Only what still counts is carried from order to order, so that cost follows need.
+    row = np.flatnonzero(~is_open)
+    z: NDArray[Any] = series.ratio[:, row]
+    step, size = step[row], np.abs(z)
+    place, power = step, 2.0 * series.entering[:, row] * z
+    left = series.tail[:, row] * size * (2.0 / tolerance)
+    for _ in range(MAX_ORDERS):
+        # What lies beyond the table reads its end, where the bound is 0.
+        place = np.minimum(place, np.nextafter(CELLS, 0.0))
+        cell = place.astype(np.intp)
+        t = place - cell
+        low, high = table.envelope[cell], table.envelope[cell + 1]
+        bound = (left[0] + left[1]) * (low + t * (high - low))
+        counts = bound > 1.0
+        if not counts.all():
+            row, step, place, cell, t, bound = (a[counts] for a in (row, step, place, cell, t, bound))
+            z, size, power, left = (a[:, counts] for a in (z, size, power, left))
+        if len(row) == 0:
+            return rgb, is_open
+        weight = (power[0] + power[1]) * np.minimum(1.0, bound - 1.0)
+        c = table.coefficients[cell]
+        rgb[row] -= weight.real[:, None] * _cubic(c[:, 0], t)
+        if is_complex:
+            rgb[row] += weight.imag[:, None] * _cubic(c[:, 1], t)
+        place = place + step
+        power = power * z
+        left = left * size
+    is_open[row] = True
+    return rgb, is_open
+
+
+@cache
+def _flat_table(white: White) -> tuple[Float64, Float64, Float64, float]:
+    """Return the compiled loops' table: real and imaginary cubics, the envelope, and its bound by 1/place².
+
+    A cell of zeros stands beyond the last, so that a place in it needs no question.
+    """
+    table = sensitivity_table(white)
+    real, imaginary = (np.append(table.coefficients[:, part].reshape(-1), np.zeros(12)) for part in (0, 1))
+    envelope = np.append(
+        np.stack([table.envelope[:-1], np.diff(table.envelope)], axis=-1).reshape(-1), [0.0, 0.0]
+    )
+    # A cell's bound is greatest at its start, its place at its end.
+    decay = float((table.envelope[:-1] * np.arange(1, CELLS + 1) ** 2).max())
+    return real, imaginary, envelope, decay
+
+
+def _compiled(band: FilmBand, white: White, tolerance: float) -> tuple[Float64, NDArray[np.bool_]]:
+    """Return the same as `_by_blocks`."""
+    from gltf_iri.compiled.fourier import sum_series
+    from gltf_iri.compiled.fourier_absorbing import sum_absorbing_series
+
+    real, imaginary, envelope, decay = _flat_table(white)
+    count = len(band.cos_theta_1)
+    rgb, is_open = np.zeros(3 * count), np.zeros(count, dtype=np.bool_)
+    film = (band.outside_ior, band.film_ior, band.base_index, band.thickness_nm, band.cos_theta_1)
+    rule = (STEP_NM, THIN_OPD_NM, tolerance, MAX_ORDERS)
+    if np.iscomplexobj(band.base_index):
+        sum_absorbing_series(*film, real, imaginary, envelope, *rule, rgb, is_open)
+    else:
+        sum_series(*film, real, envelope, decay, *rule, rgb, is_open)
+    return rgb.reshape(-1, 3), is_open
+
+
+def _cubic(c: Float64, t: Float64) -> Float64:
+    t = t[:, None]
+    return np.asarray(c[:, 0] + t * (c[:, 1] + t * (c[:, 2] + t * c[:, 3])))
