@@ -7,7 +7,7 @@ Y = q/n² (p) are its admittances. Convention exp(−iωt).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import Final, NamedTuple
 
 import numpy as np
@@ -15,7 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.optics.refraction import normal_index_squared_real
 
-__all__ = ["NO_NORMAL_INDEX", "Cell", "Films", "Host", "cell_optics", "film_optics", "host_optics"]
+__all__ = ["NO_NORMAL_INDEX", "Cell", "Films", "Host", "cell_optics", "film_optics"]
+__all__ += ["frustrated_cell_optics", "host_optics"]
 
 Float64 = NDArray[np.float64]
 
@@ -81,13 +82,30 @@ def cell_optics(
     cos_theta_h: ArrayLike,
 ) -> Cell:
     """Return the cell's constants for real indices (Yeh 1988; Fourneau et al. 2024, Eq. 8 and Appendix D)."""
+    cell, is_frustrated = frustrated_cell_optics(host_ior, n1, n2, d1_nm, d2_nm, cos_theta_h)
+    return _without(cell, is_frustrated)
+
+
+def frustrated_cell_optics(
+    host_ior: ArrayLike,
+    n1: ArrayLike,
+    n2: ArrayLike,
+    d1_nm: ArrayLike,
+    d2_nm: ArrayLike,
+    cos_theta_h: ArrayLike,
+) -> tuple[Cell, NDArray[np.bool_]]:
+    """Return the constants also where light fades in n2, with |q₂| for q₂, and where it does."""
     films = film_optics(host_ior, n1, n2, d1_nm, d2_nm, cos_theta_h)
-    *constants, is_dark = np.broadcast_arrays(
-        *films[:6], *host_optics(host_ior, n1, cos_theta_h), films.fades_in_1 | films.fades_in_2
+    *constants, fades_in_1, fades_in_2 = np.broadcast_arrays(
+        *films[:6], *host_optics(host_ior, n1, cos_theta_h), films.fades_in_1, films.fades_in_2
     )
-    if is_dark.any():
-        constants = [np.where(is_dark, np.nan, each) for each in constants]
-    return Cell(*constants)
+    return _without(Cell(*constants), fades_in_1), fades_in_2
+
+
+def _without(cell: Cell, mask: NDArray[np.bool_]) -> Cell:
+    if not mask.any():
+        return cell
+    return replace(cell, **{f.name: np.where(mask, np.nan, getattr(cell, f.name)) for f in fields(cell)})
 
 
 def film_optics(
