@@ -18,13 +18,13 @@ from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Evaluation
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.optics.bloch import BlochCell, gap_poles, shifted_reflectance
-from gltf_iri.optics.bragg_cell import cell_optics
+from gltf_iri.optics.bragg_cell import film_optics, host_optics
 
 __all__ = ["BLOCH_SAMPLES", "bloch_table", "evaluate_bloch"]
 
 Float64 = NDArray[np.float64]
 
-BLOCH_SAMPLES: Final = 16
+BLOCH_SAMPLES: Final = 12
 
 _ROWS_AT_ONCE: Final = 512  # keeps temporaries inside a core's cache
 
@@ -38,36 +38,36 @@ def evaluate_bloch(
     """
     if not mirror.is_lossless:
         raise UsageError("The method 'bloch' wants cells that absorb nothing; use 'yeh-spectral'.")
-    flat = [
-        np.broadcast_to(np.real(a), mirror.shape).reshape(-1)
-        for a in (mirror.host_ior, mirror.n1, mirror.n2, mirror.d1_nm, mirror.d2_nm, mirror.cos_theta_h)
-    ]
-    host, n1, n2, *_, cosine = flat
-    tangential = host * host * ((1.0 - cosine) * (1.0 + cosine))
-    if np.any((tangential > n2 * n2) & (tangential < n1 * n1)):
+    host_ior, n1, cosine = mirror.host_ior, mirror.n1.real, mirror.cos_theta_h
+    films = film_optics(host_ior, n1, mirror.n2.real, mirror.d1_nm, mirror.d2_nm, cosine)
+    if np.any(films.fades_in_2 & ~films.fades_in_1):
         raise UsageError(
             "The method 'bloch' wants light that runs in both films; where it is totally reflected"
             " inside the cells, use 'yeh-spectral'."
         )
-    cells = np.broadcast_to(mirror.cells, mirror.shape).reshape(-1)
     rule = wavenumber_rule(samples, white)
+    rows = BlochCell.of(films, host_optics(host_ior, n1, cosine), mirror.shape, rule.step_per_nm)
+    cells = np.broadcast_to(mirror.cells, mirror.shape).reshape(-1)
     rgb = np.zeros((len(cells), 3))
-    for start in range(0, len(cells), _ROWS_AT_ONCE):
-        part = slice(start, start + _ROWS_AT_ONCE)
-        rgb[part] = _colours([a[part] for a in flat], cells[part], rule)
+    if backend == "numba":
+        from gltf_iri.compiled.bloch import bloch_colours
+
+        grid = float(rule.wavenumber_per_nm[0]), rule.step_per_nm, rule.height_per_nm
+        weights = np.ascontiguousarray(rule.weights.swapaxes(0, 1))
+        bloch_colours(rows.paths_nm, rows.scans, rows.constants, cells, grid, weights, rule.gap_weights, rgb)
+    else:
+        for start in range(0, len(cells), _ROWS_AT_ONCE):
+            part = slice(start, start + _ROWS_AT_ONCE)
+            rgb[part] = _colours(rows.part(part), cells[part], rule)
     return Evaluation(rgb.reshape(*mirror.shape, 3), "bloch", white)
 
 
-def _colours(flat: list[Float64], cells: NDArray[np.int64], rule: WavenumberRule) -> Float64:
-    optics = cell_optics(*flat)
-    rgb = np.zeros((len(cells), 3))
-    for polarisation in ("s", "p"):
-        cell = BlochCell.of(optics, polarisation, rule.step_per_nm)
-        samples = shifted_reflectance(cell, cells[:, None], rule.wavenumber_per_nm, rule.height_per_nm)
-        rgb += 0.5 * (samples.real @ rule.weights[0] + samples.imag @ rule.weights[1])
-        rows, place, strength = gap_poles(cell, cells[:, None], rule.wavenumber_per_nm)
-        np.add.at(rgb, rows, 0.5 * strength[:, None] * _gap_weight(place, rule))
-    return rgb
+def _colours(cell: BlochCell, cells: NDArray[np.int64], rule: WavenumberRule) -> Float64:
+    samples = shifted_reflectance(cell, cells, rule.wavenumber_per_nm, rule.height_per_nm).sum(axis=0)
+    rgb = 0.5 * (samples.real @ rule.weights[0] + samples.imag @ rule.weights[1])
+    rows, place, strength = gap_poles(cell, cells, rule.wavenumber_per_nm)
+    np.add.at(rgb, rows, 0.5 * strength[:, None] * _gap_weight(place, rule))
+    return np.asarray(rgb)
 
 
 def _gap_weight(place: Float64, rule: WavenumberRule) -> Float64:

@@ -23,7 +23,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.optics.bragg_cell import Cell
+from gltf_iri.optics.bragg_cell import Films, Host
 
 __all__ = ["BlochCell", "gap_poles", "shifted_reflectance"]
 
@@ -51,148 +51,141 @@ _FADE_MAX: Final = 20.0
 
 @dataclass(frozen=True, slots=True)
 class BlochCell:
-    """One polarisation of cells, shape (rows, 1) each; phases are 2π·path·ν.
+    """Cells of both polarisations, in rows; phases are 2π·path·ν.
 
-    omega_half, imbalance : ½Ω and Z. host_r, host_t : r and 1 − r². kappa : the coefficient in b.
-    scans : into how many steps one of the grid is cut to look for gaps.
+    paths_nm : (2, rows), of the first film and of the second.
+    constants : (6, 2, rows): ½Ω, Z, r, 1 − r², κ, and 1 where the cell is opaque; s and p.
+    scans : (rows,), into how many steps one of the grid is cut to look for gaps.
     """
 
-    path_1_nm: Float64
-    path_2_nm: Float64
-    omega_half: Float64
-    imbalance: Float64
-    host_r: Float64
-    host_t: Float64
-    kappa: Float64
-    is_opaque: NDArray[np.bool_]
+    paths_nm: Float64
+    constants: Float64
     scans: NDArray[np.int64]
 
     @classmethod
-    def of(cls, cell: Cell, polarisation: str, step_per_nm: float) -> BlochCell:
-        """Return the polarisation "s" or "p" of `cell`, its arrays laid out as rows, for a grid of that step.
+    def of(cls, films: Films, host: Host, shape: tuple[int, ...], step_per_nm: float) -> BlochCell:
+        """Return the cells, broadcast to `shape` and laid out in rows, for a grid of that step.
 
         Cells that turn θ by more than 64 rad from one wavenumber of the grid to the next are taken as
-        thinner by a factor, both films alike: their colour is a mean over all phases. Cells in which light
-        does not run (constants NaN) and cells along which it grazes are opaque.
+        thinner by a factor, both films alike: their colour is a mean over all phases. Cells in whose n1 light
+        does not run and cells along which it grazes are opaque; where it fades in n2 alone, the result means
+        nothing.
         """
-        path_1, path_2 = (path.reshape(-1, 1) for path in (cell.path_1_nm, cell.path_2_nm))
-        x, imbalance, r, t = (
-            getattr(cell, f"{name}_{polarisation}").reshape(-1, 1)
-            for name in ("contrast", "imbalance", "host_r", "host_t")
+        constants, ratio, paths_nm = np.zeros((6, 2, *shape)), np.zeros((2, *shape)), np.zeros((2, *shape))
+        ratio[0], ratio[1], paths_nm[0], paths_nm[1] = films[2], films[3], films[0], films[1]
+        constants[1, 0], constants[1, 1] = films.imbalance_s, films.imbalance_p
+        constants[2, 0], constants[2, 1], constants[3, 0], constants[3, 1] = host
+        is_opaque = films.fades_in_1 | ~((ratio < _CONTRAST_MAX) & (ratio > 1.0 / _CONTRAST_MAX))
+        constants, ratio, paths_nm = (
+            constants.reshape(6, 2, -1),
+            ratio.reshape(2, -1),
+            paths_nm.reshape(2, -1),
         )
-        is_opaque = ~((x < _CONTRAST_MAX) & (x > 1.0 / _CONTRAST_MAX))
-        path_1, path_2, r = (np.where(is_opaque, 0.0, a) for a in (path_1, path_2, r))
-        x, t = np.where(is_opaque, 1.0, x), np.where(is_opaque, 1.0, t)
-        imbalance = np.where(is_opaque, 0.0, imbalance)
+        is_opaque = is_opaque.reshape(2, -1)
+        if is_opaque.any():  # stand-ins: no NaN and no overflow
+            ratio = np.where(is_opaque, 1.0, ratio)
+            constants[1:4] = np.where(is_opaque, np.array([0.0, 0.0, 1.0])[:, None, None], constants[1:4])
+            constants[5] = is_opaque
+            paths_nm = np.where(is_opaque.any(axis=0), 0.0, paths_nm)
+        _, _, r, t, _, _ = constants
+        tilt = t / (1.0 + np.abs(r))  # 1 − |r|, without cancellation
+        inverse = 1.0 / ratio
+        constants[0] = 0.5 * (ratio + inverse)
+        one_plus_r = np.where(r > 0.0, 1.0 + r, tilt)
+        constants[4] = 0.5 * (ratio * np.where(r > 0.0, tilt, 1.0 - r) + inverse * one_plus_r)
         scan_nm = _SCAN_RAD / (2.0 * np.pi * step_per_nm)
-        shrink = _SCANS_MAX * scan_nm / np.maximum(path_1 + path_2, _SCANS_MAX * scan_nm)
-        one_minus_r = np.where(r > 0.0, t / (1.0 + np.abs(r)), 1.0 - r)  # without cancellation at r → 1
-        one_plus_r = np.where(r < 0.0, t / (1.0 + np.abs(r)), 1.0 + r)
-        return cls(
-            np.maximum(path_1 * shrink, _THINNEST_NM),
-            path_2 * shrink,
-            0.5 * (x + 1.0 / x),
-            imbalance,
-            r,
-            t,
-            0.5 * (x * one_minus_r + one_plus_r / x),
-            is_opaque,
-            np.ceil(shrink * np.maximum(path_1 + path_2, 0.5 * scan_nm) / scan_nm).astype(np.int64),
-        )
+        path_nm = paths_nm[0] + paths_nm[1]
+        if path_nm.max(initial=0.0) > _SCANS_MAX * scan_nm:
+            paths_nm *= _SCANS_MAX * scan_nm / np.maximum(path_nm, _SCANS_MAX * scan_nm)
+            path_nm = np.minimum(path_nm, _SCANS_MAX * scan_nm)
+        np.maximum(paths_nm[0], _THINNEST_NM, out=paths_nm[0])
+        return cls(paths_nm, constants, np.maximum(np.ceil(path_nm / scan_nm), 1.0).astype(np.int64))
 
-    def at(self, rows: NDArray[np.intp]) -> BlochCell:
-        """Return the cells of `rows` (g,), with shape (g, 1)."""
-        return BlochCell(*(getattr(self, name)[rows] for name in self.__slots__))
+    def part(self, rows: slice) -> BlochCell:
+        """Return some of the rows."""
+        return BlochCell(self.paths_nm[:, rows], self.constants[..., rows], self.scans[rows])
 
 
 def shifted_reflectance(
     cell: BlochCell, cells: NDArray[np.int64], wavenumber_per_nm: Float64, height_per_nm: float
 ) -> Complex128:
-    """Return Q = 1 − F (rows, k) at ν + ia; for opaque cells, Q = 1.
+    """Return Q = 1 − F (2, rows, k) of s and p at ν + ia; for opaque cells, Q = 1.
 
     Re Q is the reflectance seen through a Lorentzian of half width a, less the Lorentzians of the poles.
-
-    cells : (rows, 1), N. wavenumber_per_nm : (k,), ν. height_per_nm : a > 0.
+    cells : (rows,), N. wavenumber_per_nm : (k,), ν. height_per_nm : a > 0.
     """
-    sin_1, cos_1 = _sincos(cell.path_1_nm, wavenumber_per_nm, height_per_nm)
-    sin_2, cos_2 = _sincos(cell.path_2_nm, wavenumber_per_nm, height_per_nm)
-    mixed, both_sines = cos_1 * sin_2, sin_1 * sin_2
-    first = sin_1 * cos_2
-    x = cos_1 * cos_2 - cell.omega_half * both_sines
-    b = first + cell.kappa * mixed
-    b_r = (-cell.host_r * cell.imbalance) * both_sines
+    (sin_1, sin_2), (cos_1, cos_2) = _sincos(cell.paths_nm[..., None], wavenumber_per_nm, height_per_nm)
+    omega_half, imbalance, r, t, kappa, is_opaque = cell.constants[..., None]
+    first, mixed, both_sines = sin_1 * cos_2, cos_1 * sin_2, sin_1 * sin_2
+    x = cos_1 * cos_2 - omega_half * both_sines
+    b = first + kappa * mixed
+    b_r = (-r * imbalance) * both_sines
     # sin²θ = b₀² − (Z sin φ₂)²; 1 − cos²θ cancels for thin cells, the other for strong contrasts.
-    b_0, off = first + cell.omega_half * mixed, cell.imbalance * sin_2
+    b_0, off = first + omega_half * mixed, imbalance * sin_2
     s = np.sqrt(np.where(np.abs(off) < 1.0, (b_0 - off) * (b_0 + off), (1.0 - x) * (1.0 + x)))
     # Of ±θ the one that fades: |e^{iθ}| < 1.
     s = np.where(x.imag * s.real - x.real * s.imag > 0.0, -s, s)
     fading = np.where(np.abs(x) < _FADED, x + 1j * s, 0.0)
-    z = _power(fading, 2 * cells)
+    z = _power(fading, 2 * cells[:, None])
     even, odd = s * (1.0 + z), 1.0 - z
     numerator = even * b + (s * s + b_r * b_r - 1j * b_r * b) * odd
     denominator = b * (even + (b + 1j * b_r) * odd)
-    return np.asarray(np.where(cell.is_opaque, 1.0, 1.0 - cell.host_t * numerator / denominator))
+    return np.asarray(np.where(is_opaque > 0.0, 1.0, 1.0 - t * numerator / denominator))
 
 
 def gap_poles(
     cell: BlochCell, cells: NDArray[np.int64], wavenumber_per_nm: Float64
 ) -> tuple[NDArray[np.intp], Float64, Float64]:
-    """Return rows, places (ν_g − ν₀)/h and strengths ρ/h, (g,) each, of the poles iρ/(ν − ν_g).
+    """Return rows, places (ν_g − ν₀)/h and strengths ρ/h of the poles iρ/(ν − ν_g), (g,) each, s and p alike.
 
     b is all but a straight line between two points of the scan: the secant and a step of Newton's find zeros.
     """
-    step_per_nm = float(wavenumber_per_nm[-1] - wavenumber_per_nm[0]) / (len(wavenumber_per_nm) - 1)
-    found = [
-        _scan(cell, scans, wavenumber_per_nm[0], step_per_nm, len(wavenumber_per_nm) - 1)
-        for scans in np.unique(cell.scans)
-    ]
-    rows, start, place = (np.concatenate(each) for each in zip(*found, strict=True))
-    start, place, cell = start[:, None], place[:, None], cell.at(rows)
+    first_per_nm, steps = float(wavenumber_per_nm[0]), len(wavenumber_per_nm) - 1
+    step_per_nm = float(wavenumber_per_nm[-1] - wavenumber_per_nm[0]) / steps
+    found = [_scan(cell, scans, first_per_nm, step_per_nm, steps) for scans in np.unique(cell.scans)]
+    side, rows, start, place = (np.concatenate(each) for each in zip(*found, strict=True))
+    paths_nm, constants = cell.paths_nm[:, rows], cell.constants[:, side, rows]
+    omega_half, _, _, _, kappa, _ = constants
+    turn_1, turn_2 = 2.0 * np.pi * step_per_nm * paths_nm
     for _ in range(2):
-        at_per_nm = wavenumber_per_nm[0] + step_per_nm * (start + place)
-        sin_1, cos_1 = _sincos(cell.path_1_nm, at_per_nm)
-        sin_2, cos_2 = _sincos(cell.path_2_nm, at_per_nm)
-        turn_1, turn_2 = (2.0 * np.pi * step_per_nm * path for path in (cell.path_1_nm, cell.path_2_nm))
-        value = sin_1 * cos_2 + cell.kappa * (cos_1 * sin_2)
-        slope = (turn_1 + cell.kappa * turn_2) * (cos_1 * cos_2) - (turn_2 + cell.kappa * turn_1) * (
-            sin_1 * sin_2
-        )
+        (sin_1, sin_2), (cos_1, cos_2) = _sincos(paths_nm, first_per_nm + step_per_nm * (start + place))
+        value = sin_1 * cos_2 + kappa * (cos_1 * sin_2)
+        slope = (turn_1 + kappa * turn_2) * (cos_1 * cos_2) - (turn_2 + kappa * turn_1) * (sin_1 * sin_2)
         last = place
-        place = np.clip(place - value / slope, 0.0, 1.0 / cell.scans)
-    x = cos_1 * cos_2 - cell.omega_half * (sin_1 * sin_2)
-    return rows, (start + last)[:, 0], _strength(cell, cells[rows], sin_1, sin_2, x, slope)[:, 0]
+        place = np.clip(place - value / slope, 0.0, 1.0 / cell.scans[rows])
+    x = cos_1 * cos_2 - omega_half * (sin_1 * sin_2)
+    return rows, start + last, _strength(constants, cells[rows], sin_1, sin_2, x) / slope
 
 
 def _scan(
     cell: BlochCell, scans: int, first_per_nm: float, step_per_nm: float, steps: int
-) -> tuple[NDArray[np.intp], Float64, Float64]:
-    """Return the rows with so many scans in which b changes sign, where, and how far on; in steps."""
-    rows = np.flatnonzero(cell.scans[:, 0] == scans)
-    scanned = cell.at(rows)
+) -> tuple[NDArray[np.intp], NDArray[np.intp], Float64, Float64]:
+    """Return polarisation and row, among those with so many scans, where b changes sign, and where."""
+    rows = np.flatnonzero(cell.scans == scans)
     at_per_nm = first_per_nm + step_per_nm * (np.arange(steps * scans + 1) / scans)
-    sin_1, cos_1 = _sincos(scanned.path_1_nm, at_per_nm)
-    sin_2, cos_2 = _sincos(scanned.path_2_nm, at_per_nm)
-    b = sin_1 * cos_2 + scanned.kappa * (cos_1 * sin_2)
-    is_change = (b[:, :-1] < 0.0) != (b[:, 1:] < 0.0)
-    row, column = np.nonzero(is_change & ~scanned.is_opaque)
-    before, after = b[row, column], b[row, column + 1]
-    return rows[row], column / scans, before / (before - after) / scans
+    (sin_1, sin_2), (cos_1, cos_2) = _sincos(cell.paths_nm[:, rows, None], at_per_nm)
+    b = sin_1 * cos_2 + cell.constants[4][:, rows, None] * (cos_1 * sin_2)
+    is_change = (b[..., :-1] < 0.0) != (b[..., 1:] < 0.0)
+    side, row, column = np.nonzero(is_change & (cell.constants[5][:, rows, None] == 0.0))
+    before, after = b[side, row, column], b[side, row, column + 1]
+    return side, rows[row], column / scans, before / (before - after) / scans
 
 
 def _strength(
-    cell: BlochCell, cells: NDArray[np.int64], sin_1: Float64, sin_2: Float64, x: Float64, slope: Float64
+    constants: Float64, cells: NDArray[np.int64], sin_1: Float64, sin_2: Float64, x: Float64
 ) -> Float64:
-    """Return ρ = (1 − r²)² τ (σ sinh χ − b_r τ) / {[1 − r² + (r sin φ₁)²(1 − τ²)] b′}, τ = tanh Nχ.
+    """Return ρ b′ = (1 − r²)² τ (σ sinh χ − b_r τ) / [1 − r² + (r sin φ₁)²(1 − τ²)], τ = tanh Nχ.
 
     At b = 0, sinh²χ = (Z sin φ₂)²(1 − r² + (r sin φ₁)²) and σ is the sign of cos θ = ±cosh χ.
     """
-    off, tilt = cell.imbalance * sin_2, (cell.host_r * sin_1) ** 2
-    sinh = np.abs(off) * np.sqrt(cell.host_t + tilt)
+    _, imbalance, r, t, _, _ = constants
+    off, tilt = imbalance * sin_2, r * sin_1
+    sinh = np.abs(off) * np.sqrt(t + tilt * tilt)
     z = _power(1.0 / (np.sqrt(1.0 + sinh * sinh) + sinh), 2 * cells)  # e^{−2Nχ}
     tau = (1.0 - z) / (1.0 + z)
-    signed = np.where(x < 0.0, -sinh, sinh) + cell.host_r * off * sin_1 * tau
-    sech_squared = 4.0 * z / (1.0 + z) ** 2
-    return np.asarray(cell.host_t**2 * tau * signed / ((cell.host_t + tilt * sech_squared) * slope))
+    signed = np.where(x < 0.0, -sinh, sinh) + off * tilt * tau
+    sech_squared = 4.0 * z / ((1.0 + z) * (1.0 + z))
+    return np.asarray(t * t * tau * signed / (t + tilt * tilt * sech_squared))
 
 
 def _sincos(path_nm: Float64, wavenumber_per_nm: Float64, height_per_nm: float = 0.0) -> tuple[Any, Any]:

@@ -128,6 +128,16 @@ _FILM_METHODS = (
         delta_e_mean=2.99,
     ),
     Method(
+        "bb17",
+        "film",
+        "The Fourier series of exact polarised interfaces with Gaussian fits of the observer and fixed orders.",
+        "Belcour & Barla 2017, Eq. 10; the fits of KHR_materials_iridescence; its white is E",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=0.63,
+        parameters=(Parameter("orders", "The highest order of the fringes.", 3, 1.0, 3.0),),
+    ),
+    Method(
         "fourier",
         "film",
         "The Fourier series of exact polarised interfaces, tabulated sensitivities, terms by an error bound.",
@@ -204,8 +214,9 @@ _MIRROR_METHODS: tuple[Method, ...] = (
         "this project; spec/decisions/bloch.md",
         is_truth=False,
         glsl_function=None,
-        delta_e_mean=0.02,  # 20 cells
-        parameters=(Parameter("samples", "Wavenumbers a polarisation.", 16, 8.0, 128.0),),
+        delta_e_mean=0.05,  # 20 cells
+        parameters=(Parameter("samples", "Wavenumbers a polarisation.", 12, 8.0, 128.0),),
+        backends=("numpy", "numba"),
     ),
 )
 
