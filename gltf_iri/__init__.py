@@ -63,6 +63,7 @@ def evaluate(
     base_f0: ArrayLike | None = None,
     base_ior: ArrayLike | None = None,
     base_nk: ArrayLike | None = None,
+    base_edge_tint: ArrayLike | None = None,
     outside_ior: ArrayLike = 1.0,
     bragg: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike, ArrayLike] | None = None,
     host_ior: ArrayLike | None = None,
@@ -85,6 +86,7 @@ def evaluate(
     base_f0 : a number or (..., 3), reflectance of the base at normal incidence under air, in [0, 1].
     base_ior : (...) real refractive index of the base.
     base_nk : (..., 2) index and extinction n, k of the base, k ≥ 0.
+    base_edge_tint : (..., 3) in [0, 1], with base_f0: the metal of both colours (Gulbrandsen 2014).
     bragg : n1, n2, d1_nm, d2_nm and the number of cells of a mirror, each (...): the light meets the n1 film
         of each cell first, and beyond the last cell lies n1.
     host_ior : (...) real index outside the mirror; without it n1.
@@ -104,13 +106,16 @@ def evaluate(
 
     subject: Film | Mirror
     if bragg is not None:
-        if thickness_nm is not None or any(b is not None for b in (base_f0, base_ior, base_nk)):
+        if thickness_nm is not None or any(
+            b is not None for b in (base_f0, base_ior, base_nk, base_edge_tint)
+        ):
             raise UsageError("A Bragg mirror has no film thickness and no base: give bragg or those.")
         subject = Mirror.of(cos_theta_1, *bragg, host_ior)
     else:
         if thickness_nm is None or host_ior is not None:
             raise UsageError("A film wants thickness_nm, and its outside_ior instead of host_ior.")
-        subject = Film.of(cos_theta_1, thickness_nm, film_ior, _base(base_f0, base_ior, base_nk), outside_ior)
+        base = _base(base_f0, base_ior, base_nk, base_edge_tint)
+        subject = Film.of(cos_theta_1, thickness_nm, film_ior, base, outside_ior)
     default = DEFAULT_METHOD if bragg is None else DEFAULT_MIRROR_METHOD
     return evaluate_subject(
         default if method is None else method,
@@ -166,18 +171,23 @@ def render(
         context.release()
 
 
-def _base(f0: ArrayLike | None, ior: ArrayLike | None, nk: ArrayLike | None) -> Base:
+def _base(
+    f0: ArrayLike | None, ior: ArrayLike | None, nk: ArrayLike | None, edge_tint: ArrayLike | None
+) -> Base:
     import numpy as np
 
     from gltf_iri.errors import UsageError
-    from gltf_iri.evaluation.film import base_from_f0, base_from_ior
+    from gltf_iri.evaluation.film import base_from_edge_tint, base_from_f0, base_from_ior
     from gltf_iri.material.ior import Ior
 
     if sum(given is not None for given in (f0, ior, nk)) > 1:
         raise UsageError("There is one base only: give base_f0, base_ior or base_nk.")
+    if edge_tint is not None and f0 is None:
+        raise UsageError("An edge tint wants base_f0, the metal's colour straight on.")
     if f0 is not None:
         colour = np.asarray(f0, dtype=np.float64)
-        return base_from_f0(np.repeat(colour, 3) if colour.ndim == 0 else colour)
+        colour = np.repeat(colour, 3) if colour.ndim == 0 else colour
+        return base_from_f0(colour) if edge_tint is None else base_from_edge_tint(colour, edge_tint)
     if nk is not None:
         pairs = np.asarray(nk, dtype=np.float64)
         if pairs.shape[-1:] != (2,):

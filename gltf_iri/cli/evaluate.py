@@ -81,6 +81,9 @@ class _Setting(click.ParamType):  # type: ignore[type-arg]  # generic in click's
 @click.option("--base-f0", type=_Numbers(1, 3), metavar="F|R,G,B", help="Base by its reflectance under air.")
 @click.option("--base-ior", type=float, help=f"Base by its real index [{_DEFAULT_BASE.ior:g}].")
 @click.option("--base-nk", type=_Numbers(2), metavar="N,K", help="Base by its complex index N + iK.")
+@click.option(
+    "--base-edge-tint", type=_Numbers(3), metavar="R,G,B", help="With --base-f0: a metal's tint at its edge."
+)
 @click.option("--outside-ior", type=float, help=f"Index outside the film [{_DEFAULT_OUTSIDE_IOR:g}].")
 @click.option(
     "--cos",
@@ -187,6 +190,7 @@ def _from_parameters(cosines: tuple[float, ...], how: _How, given: dict[str, Any
         base_f0=f0[0] if f0 is not None and len(f0) == 1 else f0,
         base_ior=given["base_ior"],
         base_nk=given["base_nk"],
+        base_edge_tint=given["base_edge_tint"],
         outside_ior=_or(given["outside_ior"], _DEFAULT_OUTSIDE_IOR),
         white=how.white,
         backend=how.backend,

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.colour.integrate import integrate_colour
 from gltf_iri.errors import UsageError
+from gltf_iri.optics.gulbrandsen import index_from_edge_tint
 from gltf_iri.planning.method import ParameterValue
 
 __all__ = [
@@ -18,6 +19,7 @@ __all__ = [
     "Evaluation",
     "Film",
     "base_from_dispersion",
+    "base_from_edge_tint",
     "base_from_f0",
     "base_from_ior",
     "index_by_wavelength",
@@ -71,6 +73,19 @@ def base_from_ior(ior: ArrayLike) -> Base:
     """Return the base of index n + ik (any shape), whose F0 under air is |(n − 1)/(n + 1)|²."""
     index = np.repeat(_checked_index(ior)[..., None], 3, axis=-1)
     return Base(np.abs((index - 1.0) / (index + 1.0)) ** 2, index)
+
+
+def base_from_edge_tint(f0: ArrayLike, edge_tint: ArrayLike) -> Base:
+    """Return the metal that reflects `f0` straight on and turns to `edge_tint` (Gulbrandsen 2014).
+
+    Both are (..., 3) in [0, 1]; an edge tint of 0 is the real index of `base_from_f0`.
+    """
+    plain = base_from_f0(f0)
+    tint = np.asarray(edge_tint, dtype=np.float64)
+    if tint.shape[-1:] != (3,) or not np.all((tint >= 0.0) & (tint <= 1.0)):
+        raise UsageError("The edge tint wants three channels, each in [0, 1].")
+    colour, tint = np.broadcast_arrays(plain.f0, tint)
+    return Base(colour, index_from_edge_tint(colour, tint))
 
 
 def base_from_dispersion(index_at: Dispersion) -> Base:

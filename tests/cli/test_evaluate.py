@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gltf_iri.cli.main import run
-from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
+from gltf_iri.evaluation.film import Film, base_from_edge_tint, base_from_f0, base_from_ior
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import method_names
 
@@ -51,6 +51,18 @@ def test_one_reflectance_stands_for_three_channels(capsys: pytest.CaptureFixture
     found = answer(capsys, "--base-f0", "0.5", "--cos", "0.7")
     expected = evaluate("khr-guarded", Film.of([0.7], 400.0, 1.3, base_from_f0([0.5] * 3))).rgb
     assert np.array_equal(np.array(found["rgb"]), expected)
+
+
+def test_edge_tint_makes_a_metal_of_the_base_colour(capsys: pytest.CaptureFixture[str]) -> None:
+    options = "--base-f0 0.9,0.6,0.3 --base-edge-tint 1,0.5,0 --method spectral --cos 1,0.3 --thickness 300"
+    found = answer(capsys, *options.split())
+    base = base_from_edge_tint([0.9, 0.6, 0.3], [1.0, 0.5, 0.0])
+    assert base.index[0].imag > 0.0
+    assert base.index[2].imag == 0.0
+    expected = evaluate("spectral", Film.of([1.0, 0.3], 300.0, 1.3, base)).rgb
+    assert np.array_equal(np.array(found["rgb"]), expected)
+    assert run(["evaluate", "--base-edge-tint", "1,0.5,0"]) == 2
+    assert run(["evaluate", "--base-f0", "0.5", "--base-edge-tint", "1,0.5,2"]) == 2
 
 
 def test_undefined_values_are_null_and_named(capsys: pytest.CaptureFixture[str]) -> None:

@@ -5,7 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gltf_iri.optics.fresnel import amplitude_p, amplitude_s, f_schlick
+from gltf_iri.optics.fresnel import (
+    amplitude_p,
+    amplitude_s,
+    f_schlick,
+    interface_power,
+    phase_rad,
+    transmission_p,
+    transmission_s,
+)
 from gltf_iri.optics.ior import fresnel0_to_ior, ior_to_fresnel0
 from gltf_iri.optics.refraction import cos_theta_2_squared, normal_index, normal_index_squared
 
@@ -20,14 +28,49 @@ def test_brewster_angle_reflects_no_p_light() -> None:
     assert abs(amplitude_s(cosine, q)) > 0.3
 
 
-@pytest.mark.parametrize("n_2", [1.5, 2.5, 0.7])
-def test_reflected_and_transmitted_power_sum_to_one(n_2: float) -> None:
+@pytest.mark.parametrize("n_2", [1.5, 2.5, 0.7, 0.2 + 3.4j, 1.5 + 1e-6j, 3j])
+def test_reflected_and_transmitted_power_sum_to_one(n_2: complex) -> None:
     q_1, q_2 = 1.0 * COSINES[1:], normal_index(normal_index_squared(n_2, 1.0, COSINES[1:]))
-    s, p = amplitude_s(q_1, q_2), amplitude_p(1.0, q_1, n_2, q_2)
-    transmitted_s = 4.0 * q_1 * q_2.real / np.abs(q_1 + q_2) ** 2
-    transmitted_p = 4.0 * n_2**2 * q_1 * q_2.real / np.abs(n_2**2 * q_1 + q_2) ** 2
-    assert np.abs(np.abs(s) ** 2 + transmitted_s - 1.0).max() <= 1e-14
-    assert np.abs(np.abs(p) ** 2 + transmitted_p - 1.0).max() <= 1e-14
+    power = interface_power(1.0, q_1, n_2, q_2)
+    assert np.abs(power.R_s + power.T_s - 1.0).max() <= 1e-14
+    assert np.abs(power.R_p + power.T_p - 1.0).max() <= 1e-14
+    assert power.T_s.max() > 0.0 or n_2 == 3j
+
+
+@pytest.mark.parametrize("n_2", [1.5, 0.2 + 3.4j])
+def test_fields_along_the_interface_are_the_same_on_both_sides(n_2: complex) -> None:
+    """s: 1 + r = t. p: along it the fields are cosθ₁(1 − r) and cosθ₂ t, magnetic ones n₁(1 + r), n₂t."""
+    q_1, q_2 = COSINES[1:], normal_index(normal_index_squared(n_2, 1.0, COSINES[1:]))
+    assert np.abs(1.0 + amplitude_s(q_1, q_2) - transmission_s(q_1, q_2)).max() <= 1e-15
+    r, t = amplitude_p(1.0, q_1, n_2, q_2), transmission_p(1.0, q_1, n_2, q_2)
+    assert np.abs(1.0 + r - n_2 * t).max() <= 1e-14
+    assert np.abs(q_1 * (1.0 - r) - (q_2 / n_2) * t).max() <= 1e-14
+
+
+def test_matched_interface_lets_all_through_even_at_grazing() -> None:
+    assert transmission_s(0.0, 0.0) == 1.0
+    assert transmission_p(1.3, 0.0, 1.3, 0.0) == 1.0
+
+
+def test_total_reflection_turns_the_phase_as_in_the_textbook() -> None:
+    """Born & Wolf, §1.5.4, Eq. 60: tan δ_s/2 = −√(sin²θ − n²)/cosθ, and n⁻² times that for p."""
+    n = 1.0 / 1.5
+    cosine = np.linspace(0.01, np.sqrt(1.0 - n * n) - 0.01, 40)
+    q_2 = normal_index(normal_index_squared(1.0, 1.5, cosine))
+    steep = np.sqrt((1.0 - cosine**2) - n * n) / cosine
+    s, p = amplitude_s(1.5 * cosine, q_2), amplitude_p(1.5, 1.5 * cosine, 1.0, q_2)
+    assert np.abs(phase_rad(s) + 2.0 * np.arctan(steep)).max() <= 1e-14
+    assert np.abs(phase_rad(p) + 2.0 * np.arctan(steep / (n * n))).max() <= 1e-14
+    assert np.abs(np.abs([s, p]) - 1.0).max() <= 1e-15
+
+
+def test_metals_delay_as_n_plus_ik_and_exp_minus_iwt_say() -> None:
+    """Straight on, tan δ = −2k/(1 − n² − k²): the sign of k is that of δ."""
+    n, k = 0.2, 3.4
+    delta = phase_rad(amplitude_s(1.0, n + 1j * k))
+    assert delta == pytest.approx(np.arctan2(-2.0 * k, 1.0 - n * n - k * k), abs=1e-15)
+    assert phase_rad(amplitude_s(1.0, n - 1j * k)) == -delta
+    assert -np.pi < delta < 0.0
 
 
 def test_straight_on_both_polarisations_reflect_the_same() -> None:
