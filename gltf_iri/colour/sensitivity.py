@@ -20,6 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from gltf_iri.colour.spaces import xyz_to_rec709
 
 __all__ = ["GAUSSIANS", "NORMALISATION", "SENSITIVITY_WHITE", "Gaussian", "eval_sensitivity"]
+__all__ += ["gaussian_transform"]
 
 # Divides every lobe: the integral of the fitted ȳ (KHR_materials_iridescence, evalSensitivity).
 NORMALISATION: Final = 1.0685e-7
@@ -71,6 +72,26 @@ def eval_sensitivity(opd_nm: ArrayLike, shift: ArrayLike) -> NDArray[np.float64]
         fringe = np.cos(2.0 * math.pi * opd / lobe.wavelength_nm + phase[..., lobe.channel])
         xyz[..., lobe.channel] += lobe.amplitude * fringe * np.exp(-((opd / lobe.length_nm) ** 2))
     return xyz_to_rec709(xyz)
+
+
+def gaussian_transform(opd_nm: ArrayLike, opd_std_nm: ArrayLike = 0.0) -> NDArray[np.complex128]:
+    """Return the fits' Ŝ (..., 3) of X, Y and Z at `opd_nm` (...), averaged over a spread of paths.
+
+    A Gaussian spread of width σ multiplies the density over wavenumber by exp(−2π²σ²ν²); with
+    g = 1 + 2(σ/L)² a lobe A exp(2πi D/λ − (D/L)²) becomes
+
+        A/√g · exp((2πi D/λ − (D/L)² − 2(πσ/λ)²)/g)
+
+    (Belcour & Barla 2017, section 5, Multi-scale Rendering; the product of two Gaussians).
+    """
+    opd, spread = np.asarray(opd_nm, dtype=np.float64), np.asarray(opd_std_nm, dtype=np.float64)
+    xyz = np.zeros((*np.broadcast_shapes(opd.shape, spread.shape), 3), dtype=np.complex128)
+    for lobe in GAUSSIANS:
+        g = 1.0 + 2.0 * (spread / lobe.length_nm) ** 2
+        fading = (opd / lobe.length_nm) ** 2 + 2.0 * (math.pi * spread / lobe.wavelength_nm) ** 2
+        turning = 2.0 * math.pi * opd / lobe.wavelength_nm
+        xyz[..., lobe.channel] += lobe.amplitude / np.sqrt(g) * np.exp((1j * turning - fading) / g)
+    return xyz
 
 
 # The colour of "all fringes in phase", (1.205, 0.948, 0.910): equal-energy XYZ put through a D65 matrix, so

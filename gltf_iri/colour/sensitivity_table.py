@@ -74,6 +74,17 @@ class SensitivityTable:
         imaginary = np.where(inside, parts[..., 1, :], 0.0)
         return np.asarray(real + 1j * np.where(opd < 0.0, -1.0, 1.0)[..., None] * imaginary)
 
+    def reach_nm(self, epsilon: float) -> float:
+        """Return D_max: |Ŝ(D)| ≤ `epsilon` in every channel for all D ≥ D_max, to one cell of the table.
+
+        Belcour & Barla 2017, section 5: films with a longer path at normal incidence are as good as grey.
+        END_NM where the table is too short to tell.
+        """
+        if epsilon < self.beyond:
+            return END_NM
+        above = np.flatnonzero(self.envelope[1:-1] > epsilon)
+        return float(STEP_NM * (above[-1] + 1)) if len(above) else 0.0
+
     def bound(self, opd_nm: ArrayLike) -> Float64:
         """Return (...): at least |Ŝ| of every channel at and beyond `opd_nm` ≥ 0 within the table."""
         opd = np.asarray(opd_nm, dtype=np.float64)

@@ -51,6 +51,10 @@ class FilmBand:
             cos_theta_1=self.cos_theta_1[rows],
         )
 
+    def of_thickness(self, thickness_nm: Float64) -> FilmBand:
+        """Return the same films `thickness_nm` (r,) thick."""
+        return replace(self, thickness_nm=thickness_nm)
+
 
 @cache
 def representative_wavelengths_nm(white: White) -> tuple[float, float, float]:

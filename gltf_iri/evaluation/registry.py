@@ -12,6 +12,7 @@ import numpy as np
 from gltf_iri.backends import choose_backend
 from gltf_iri.colour.spaces import WHITES
 from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.bb17 import evaluate_bb17
 from gltf_iri.evaluation.bloch import evaluate_bloch
 from gltf_iri.evaluation.film import Evaluation, Film
 from gltf_iri.evaluation.fourier import evaluate_fourier
@@ -39,6 +40,7 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
         "granier-heidrich": evaluate_granier_heidrich,
         "naive-rgb": evaluate_naive_rgb,
         "smits-meyer": evaluate_smits_meyer,
+        "bb17": evaluate_bb17,
         "fourier": evaluate_fourier,
         "spectral": evaluate_spectral,
         "yeh-spectral": evaluate_yeh_spectral,

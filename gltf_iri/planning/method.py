@@ -130,7 +130,7 @@ _FILM_METHODS = (
     Method(
         "bb17",
         "film",
-        "The Fourier series of exact polarised interfaces with Gaussian fits of the observer and fixed orders.",
+        "The Fourier series of exact interfaces with Gaussian fits of the observer, cut at a fixed order.",
         "Belcour & Barla 2017, Eq. 10; the fits of KHR_materials_iridescence; its white is E",
         is_truth=False,
         glsl_function=None,
