@@ -31,7 +31,7 @@ class Contestant:
 
     method: str
     backend: str
-    run: Callable[[], Float64]  # → linear Rec.709, (n, 3)
+    run: Callable[[], Float64 | None]  # → linear Rec.709, (n, 3), or nothing for a part of a method
     parameters: Settings = field(default_factory=dict)
 
 
@@ -39,6 +39,7 @@ class Contestant:
 class ColourRow:
     """One row of the benchmark; errors are against the truth under D65, ΔE is CIEDE2000.
 
+    Errors are None for a part of a method, which ends in no colour.
     ns_per_eval is a median, taken in the same rounds as that of every row of its workload.
     """
 
@@ -47,10 +48,10 @@ class ColourRow:
     backend: str
     parameters: Settings
     ns_per_eval: float
-    max_abs: float
-    delta_e_mean: float
-    delta_e_p95: float
-    delta_e_max: float
+    max_abs: float | None = None
+    delta_e_mean: float | None = None
+    delta_e_p95: float | None = None
+    delta_e_max: float | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return the row of `bench --json`."""
@@ -93,9 +94,15 @@ def colour_rows(
 
 
 def colour_row(
-    names: tuple[str, str, str], parameters: Settings, ns_per_eval: float, rgb: Float64, truth: Float64
+    names: tuple[str, str, str],
+    parameters: Settings,
+    ns_per_eval: float,
+    rgb: Float64 | None,
+    truth: Float64,
 ) -> ColourRow:
     """Return the row of a workload, method and backend whose colours are `rgb`, (n, 3) as `truth` is."""
+    if rgb is None:
+        return ColourRow(*names, parameters, ns_per_eval)
     delta_e = delta_e_2000(rgb, truth)
     return ColourRow(
         *names,

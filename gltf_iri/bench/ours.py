@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gltf_iri.backends import Backend
 from gltf_iri.bench.workloads import Workload
+from gltf_iri.optics.airy import film_power
 from gltf_iri.optics.bragg import bragg_reflectance
 from gltf_iri.optics.film import film_reflectance
 from gltf_iri.optics.stack import stack_power
@@ -28,12 +29,14 @@ class Own:
     """A function of this package, on which workloads it stands, and how it is asked.
 
     grids : at most how many structures, angles and wavelengths it is given; the whole grid where none stand.
+    backends : those it has.
     """
 
     name: str
     fits: Callable[[Workload], bool]
     prepare: Callable[[Workload, Backend], Run]
     grids: Grids
+    backends: tuple[Backend, ...] = ("numpy", "numba")
 
 
 def _film(workload: Workload, backend: Backend) -> Run:
@@ -46,6 +49,23 @@ def _film(workload: Workload, backend: Backend) -> Run:
         workload.cos_theta[:, None],
     )
     return lambda: film_reflectance(*arguments, backend=backend)
+
+
+def _airy(workload: Workload, _: Backend) -> Run:
+    media = (_by_structure(workload.cell_index[:, 0]), _by_structure(workload.exit_index))
+    arguments = (
+        workload.outside_ior,
+        *media,
+        _by_structure(workload.cell_nm[:, 0]),
+        workload.wavelength_nm,
+        workload.cos_theta[:, None],
+    )
+
+    def run() -> Float64:
+        power = film_power(*arguments)
+        return np.asarray(0.5 * (power.R_s + power.R_p))
+
+    return run
 
 
 def _bragg(workload: Workload, backend: Backend) -> Run:
@@ -88,6 +108,7 @@ _WHOLE: Final[Grids] = MappingProxyType({})
 
 OURS: Final = (
     Own("film", lambda workload: workload.is_film and not workload.cell_index.imag.any(), _film, _WHOLE),
+    Own("airy", lambda workload: workload.is_film, _airy, _WHOLE, ("numpy",)),
     Own("bragg", lambda workload: not workload.is_film, _bragg, _WHOLE),
     Own(
         "stack",

@@ -13,6 +13,7 @@ Settings = Mapping[str, ParameterValue]
 
 # Beside the defaults, which come first for every method.
 SETTINGS: Final[Mapping[str, tuple[Settings, ...]]] = {
+    "fourier": ({"tolerance": 1e-3}, {"tolerance": 1e-6}),
     "bloch": ({"samples": 12}, {"samples": 24}),
     "landmarks-sub": (
         *({"subdivisions": s} for s in (2, 4, 5)),

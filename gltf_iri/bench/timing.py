@@ -31,14 +31,17 @@ def interleaved_ns(
     """Return the median time of each run in nanoseconds.
 
     Every round calls each in turn, so that what slows the machine down for a while slows all of them. Each
-    has been called before, which compiled what is compiled at the first call; another call beforehand tells
-    how often it is repeated.
+    has been called before, which compiled what is compiled at the first call.
     """
-    repeats = [max(1, math.ceil(_SHORTEST_NS / max(1, _elapsed_ns(run, 1)))) for run in runs]
+    repeats = [1] * len(runs)
     times: list[list[float]] = [[] for _ in runs]
-    for _ in range(rounds):
+    for k_round in range(rounds):
         for k, run in enumerate(runs):
-            times[k].append(_elapsed_ns(run, repeats[k]) / repeats[k])
+            elapsed = _elapsed_ns(run, repeats[k])
+            if k_round == 0 and elapsed < _SHORTEST_NS:
+                repeats[k] = math.ceil(_SHORTEST_NS / max(1, elapsed))
+                elapsed = _elapsed_ns(run, repeats[k])
+            times[k].append(elapsed / repeats[k])
         after_round()
     return [statistics.median(each) for each in times]
 
