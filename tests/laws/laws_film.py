@@ -17,7 +17,8 @@ INDICES = np.array([1.05, 1.33, 1.5, 2.4])[:, None, None]
 
 
 def film_is_outside(method: str) -> float:
-    films = (Film.of(COSINES, THICKNESSES_NM, n, base_from_ior(INDICES), n) for n in (1.0, 1.4))
+    bases = (base_from_ior(INDICES), base_from_ior(0.2 + 3.4j))
+    films = (Film.of(COSINES, THICKNESSES_NM, n, base, n) for n in (1.0, 1.4) for base in bases)
     return max(colourfulness(evaluate(method, film).rgb) for film in films)
 
 

@@ -1,4 +1,4 @@
-"""Laws that hold at one wavelength, asked of the optics functions that methods are made of.
+"""Laws that films keep at one wavelength, asked of the optics functions that methods are made of.
 
 A method's colour is an integral over wavelengths and cannot keep them. Methods that take one wavelength a
 channel can, and are asked themselves.
@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from gltf_iri.evaluation.film import Film, base_from_ior
 from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.optics.airy import film_power
 from gltf_iri.optics.bragg import bragg_reflectance
 from gltf_iri.optics.film import film_reflectance
 from gltf_iri.optics.granier_heidrich import WAVELENGTHS_NM
@@ -33,6 +34,11 @@ D_NM = np.array([0.0, 35.0, 310.0])[:, None, None]
 
 def _film(n1: ArrayLike, n2: ArrayLike, n3: ArrayLike, d_nm: ArrayLike, cosine: ArrayLike) -> Float64:
     return film_reflectance(n1, n2, n3, d_nm, WAVELENGTH_NM, cosine)
+
+
+def _airy(n1: ArrayLike, n2: ArrayLike, n3: ArrayLike, d_nm: ArrayLike, cosine: ArrayLike) -> Float64:
+    powers = film_power(n1, n2, n3, d_nm, WAVELENGTH_NM, cosine)
+    return 0.5 * (powers.R_s + powers.R_p)
 
 
 def _stack(n1: ArrayLike, n2: ArrayLike, n3: ArrayLike, d_nm: ArrayLike, cosine: ArrayLike) -> Float64:
@@ -62,6 +68,7 @@ def _film_of(n1: ArrayLike, n2: ArrayLike, n3: ArrayLike, d_nm: ArrayLike, cosin
 
 SUBJECTS: dict[str, Slab] = {
     "optics/film": _film,
+    "optics/airy": _airy,
     "optics/stack": _stack,
     "optics/bragg": _mirror,
     "naive-rgb": _naive,

@@ -10,6 +10,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator, Mapping
 
+from laws_cells import CELL_LAWS
 from laws_film import FILM_LAWS
 from laws_law import Law
 from laws_mirror import MIRROR_LAWS
@@ -23,6 +24,7 @@ _SCHLICK = "Schlick's term takes the outside's cosine, from a denser outside too
 _ONE_WAVELENGTH = "one wavelength a channel: fringes never fade"
 _TWO_BEAMS = "two beams without inter-reflections are not a passive surface"
 _NO_BASE = "its base plays no part: the film's inner side reflects all that enters"
+_THREE_ORDERS = "three orders leave the rest out, which bright interfaces show"
 _TWO_LOBES = "R + T is nearly 1 before 2√(RT) is added: both lobes together pass 1"
 
 _FILMS: dict[str, Reasons] = {
@@ -54,6 +56,10 @@ _FILMS: dict[str, Reasons] = {
         "perfect mirror": _TWO_BEAMS,
         "no more than white": _TWO_BEAMS,
     },
+    "bb17": {
+        "no thickness": _THREE_ORDERS,
+        "no more than white": _THREE_ORDERS,
+    },
     "fourier": {},
     "spectral": {},
 }
@@ -70,6 +76,7 @@ _MIRRORS: dict[str, Reasons] = {
 
 _FUNCTIONS: dict[str, Reasons] = {
     "optics/film": {},
+    "optics/airy": {},
     "optics/stack": {},
     "optics/bragg": {},
     "naive-rgb": {},
@@ -81,12 +88,20 @@ _FUNCTIONS: dict[str, Reasons] = {
     },
 }
 
-BROKEN: dict[str, Mapping[str, Reasons]] = {"film": _FILMS, "mirror": _MIRRORS, "wavelength": _FUNCTIONS}
+_CELLS: dict[str, Reasons] = {"optics/bragg": {}, "optics/stack": {}}
+
+BROKEN: dict[str, Mapping[str, Reasons]] = {
+    "film": _FILMS,
+    "mirror": _MIRRORS,
+    "wavelength": _FUNCTIONS,
+    "cells": _CELLS,
+}
 
 TABLES: dict[str, Mapping[str, Law]] = {
     "film": FILM_LAWS,
     "mirror": MIRROR_LAWS,
     "wavelength": SPECTRAL_LAWS,
+    "cells": CELL_LAWS,
 }
 
 _TERM_BY_TERM = "its series is integrated over wavelengths term by term"
@@ -97,6 +112,7 @@ MADE_OF: dict[str, str] = {
     "khr-guarded": _TERM_BY_TERM,
     "granier-heidrich": "granier-heidrich",
     "naive-rgb": "naive-rgb",
+    "bb17": _TERM_BY_TERM,
     "fourier": _TERM_BY_TERM,
     "smits-meyer": "its fringe is integrated over wavelengths as one cosine",
     "spectral": "optics/film",
@@ -109,7 +125,8 @@ MADE_OF: dict[str, str] = {
 _TITLES = {
     "film": "Films, as colours",
     "mirror": "Mirrors, as colours",
-    "wavelength": "At one wavelength",
+    "wavelength": "Films, at one wavelength",
+    "cells": "Mirrors, at one wavelength",
 }
 
 
@@ -128,9 +145,10 @@ def _table(which: str) -> Iterator[str]:
         yield f"| `{subject}` | {' | '.join('broken' if law in reasons else 'kept' for law in laws)} |"
     yield ""
     yield from (f"- *{name}*: {law.says}" for name, law in laws.items())
-    yield ""
-    yield "Broken, and why:"
-    yield ""
+    if any(subjects.values()):
+        yield ""
+        yield "Broken, and why:"
+        yield ""
     for subject, reasons in subjects.items():
         for reason in dict.fromkeys(reasons.values()):
             named = ", ".join(law for law, why in reasons.items() if why == reason)
@@ -138,10 +156,10 @@ def _table(which: str) -> Iterator[str]:
 
 
 def _without_wavelength() -> Iterator[str]:
-    yield "The last table asks functions of one wavelength, since an integral over many cannot keep its laws:"
+    yield "Laws at one wavelength are asked of functions: an integral over many cannot keep them. A method's own:"
     yield ""
     for method, subject in MADE_OF.items():
-        is_asked = subject in BROKEN["wavelength"]
+        is_asked = subject in BROKEN["wavelength"] or subject in BROKEN["cells"]
         yield f"- `{method}`: {'' if is_asked else 'none, '}{f'`{subject}`' if is_asked else subject}."
 
 

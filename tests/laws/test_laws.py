@@ -6,6 +6,7 @@ from itertools import chain
 from pathlib import Path
 
 import pytest
+from laws_cells import CELL_SUBJECTS
 from laws_film import FILM_LAWS
 from laws_spectral import SUBJECTS
 from laws_table import BROKEN, MADE_OF, TABLES, markdown
@@ -46,6 +47,7 @@ def test_every_method_stands_in_the_table() -> None:
     assert set(BROKEN["film"]) == set(method_names("film"))
     assert set(BROKEN["mirror"]) == set(method_names("mirror"))
     assert set(BROKEN["wavelength"]) == set(SUBJECTS)
+    assert set(BROKEN["cells"]) == set(CELL_SUBJECTS)
     assert set(MADE_OF) == set(METHODS)
 
 
