@@ -25,7 +25,7 @@ from gltf_iri.errors import UsageError
 from gltf_iri.optics.refraction import normal_index, normal_index_squared
 from gltf_iri.optics.stack_absorption import absorbed_in_layer
 
-__all__ = ["StackPower", "StackResponse", "stack", "stack_power"]
+__all__ = ["Layers", "StackPower", "StackResponse", "stack", "stack_power"]
 
 Float64 = NDArray[np.float64]
 Complex128 = NDArray[np.complex128]
