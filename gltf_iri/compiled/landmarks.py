@@ -1,7 +1,8 @@
 """Compiled twin of gltf_iri/evaluation/landmark_boxes.py, with the sum over the boxes.
 
 Bands, then boxes, of many mirrors are put side by side, so that searches and envelopes run in vector
-instructions; only what sorts, and what looks up the table, goes one by one. `Lanes` describes the arrays.
+instructions; only what sorts, and what looks up the table, goes one by one. Lanes are the rows of `Lanes` but
+the last; where light does not run in both films the path is negative, and the lane has no box.
 """
 
 from __future__ import annotations
@@ -14,28 +15,60 @@ from gltf_iri.compiled.landmark_search import search_by_halving, search_by_newto
 from gltf_iri.compiled.loops import inline, loop
 from gltf_iri.compiled.sincos import sincos_turns
 
-__all__ = ["landmark_search", "landmark_transmittances"]
+__all__ = ["landmark_colours", "landmark_search"]
 
 _BANDS_AT_ONCE = 264  # more than a lane ever has: MODES_MAX + 1 of optics/landmarks.py
+_MIRRORS_AT_ONCE = 256
+_BOXES_AT_ONCE = 256
 _BOXES_PER_BAND = 3  # each in at most `subdivisions` parts
 _TINY = 1e-150
 _SHORTEST_NM = 360.0
 _LONGEST_NM = 830.0
+_LEAST_PATH_NM = 1e-12
+
+
+@loop
+def _fill_lanes(count: int, cell: Any, lanes: Any) -> None:
+    """Fill lanes (6, ≥ 2 count), s before p, of the first `count` mirrors in cell (14, ≥ count).
+
+    cell : the fields of `Cell`, then host, n1, n2 and cos θ_h.
+    """
+    for i in range(count):
+        path = max(cell[0, i] + cell[1, i], _LEAST_PATH_NM)
+        runs = cell[0, i] + cell[1, i] >= 0.0  # not where they are NaN
+        lanes[0, i] = path if runs else -1.0
+        lanes[1, i] = (cell[0, i] - cell[1, i]) / path if runs else 0.0
+        n1, n2, cos_h = cell[11, i], cell[12, i], cell[13, i]
+        contrast, bent = (n1 - n2) / (n1 + n2), cell[10, i] / n1
+        at_normal = 0.735 * (contrast * contrast) + 0.532
+        rest = 1.0 - np.sqrt(max(1.0 - bent * bent * ((1.0 - cos_h) * (1.0 + cos_h)), 0.0))
+        lanes[3, i] = at_normal + (1.0 - at_normal) * (rest * rest)
+        for k in (0, 1, 3):
+            lanes[k, count + i] = lanes[k, i]
+    for p in range(2):
+        for i in range(count):
+            j = p * count + i
+            x = cell[2 + p, i]
+            r = 2.0 * (x / (1.0 + x)) * (cell[4 + p, i] / (1.0 + x))
+            lanes[2, j] = min(r * r, 1.0) if cell[0, i] > 0.0 and cell[1, i] > 0.0 else 0.0
+            lanes[4, j] = cell[6 + p, i] * cell[6 + p, i]
+            lanes[5, j] = cell[8 + p, i]
 
 
 @loop
 def _collect(
-    lane: int, path_nm: Any, lean: Any, r_squared: Any, runs: Any, modes_max: int, owner: Any, bands: Any
+    lane: int, last_lane: int, lanes: Any, modes_max: int, owner: Any, bands: Any
 ) -> tuple[int, int]:
     """Fill the bands of the lanes from `lane` on, as many as fit; return the next lane and their number.
 
     owner : (b,) lane of each. bands : (4, b) mode, ρ, r₁₂² and how many bands it stands for.
     """
     count = 0
-    while lane < path_nm.shape[0]:
-        if runs[lane]:
-            first = np.floor(2.0 * path_nm[lane] / _LONGEST_NM)
-            last = np.floor(2.0 * path_nm[lane] / _SHORTEST_NM)
+    while lane < last_lane:
+        path_nm = lanes[0, lane]
+        if path_nm > 0.0:
+            first = np.floor(2.0 * path_nm / _LONGEST_NM)
+            last = np.floor(2.0 * path_nm / _SHORTEST_NM)
             stride = 1.0 + np.floor((last - first) / modes_max)
             more = 1 + int((last - first) / stride)
             if count + more > owner.shape[0]:
@@ -43,8 +76,8 @@ def _collect(
             for place in range(more):
                 owner[count] = lane
                 bands[0, count] = first + stride * place
-                bands[1, count] = lean[lane]
-                bands[2, count] = r_squared[lane]
+                bands[1, count] = lanes[1, lane]
+                bands[2, count] = lanes[2, lane]
                 bands[3, count] = stride
                 count += 1
         lane += 1
@@ -65,7 +98,7 @@ def _cut(
     owner: Any,
     bands: Any,
     found: Any,
-    path_nm: Any,
+    lanes: Any,
     subdivisions: int,
     table_steps: int,
     box_lane: Any,
@@ -73,7 +106,7 @@ def _cut(
 ) -> int:
     """Cut `count` bands into boxes, and return how many overlap the table.
 
-    box_lane : (b,) the lane of each. box : (9, b), of which it fills the middle, and both ends in steps of
+    box_lane : (b,) the lane of each. box : (4, b), of which it fills the middle, and both ends in steps of
     the table.
     """
     boxes = 0
@@ -82,7 +115,7 @@ def _cut(
     for i in range(count):
         m, stride = bands[0, i], bands[3, i]
         # A landmark at t lies at slope · t + shift steps of the table.
-        scale = 0.5 * steps_nm / path_nm[owner[i]]
+        scale = 0.5 * steps_nm / lanes[0, owner[i]]
         slope, shift = stride * scale, (m - stride * m) * scale - offset
         start, airy, end = found[0, i], found[1, i], found[2, i]
         share = max(1.0 - bands[1, i], _TINY)
@@ -147,54 +180,62 @@ def _sum(boxes: int, box_lane: Any, box: Any, table: Any, transmitted: Any) -> N
 
 
 @loop
-def landmark_transmittances(
-    path_nm: Any,
-    lean: Any,
-    r_squared: Any,
-    weight: Any,
-    host_r: Any,
-    host_t: Any,
-    runs: Any,
-    subdivisions: int,
-    steps: int,
-    modes_max: int,
-    table: Any,
-    transmitted: Any,
-) -> None:
-    """Add to transmitted (2n, 3) what the boxes of each lane let through.
-
-    steps : Newton steps, 0 for ten halvings. modes_max : MODES_MAX. table : C̄, (k + 1, 3).
-    """
-    capacity = _BANDS_AT_ONCE
-    owner = np.zeros(capacity, np.int64)
-    bands, found, root = np.zeros((4, capacity)), np.zeros((3, capacity)), np.zeros((5, 3 * capacity))
-    many = _BOXES_PER_BAND * max(subdivisions, 1) * capacity
-    box_lane, box = np.zeros(many, np.int64), np.zeros((9, many))
-    lane = 0
-    while lane < path_nm.shape[0]:
-        lane, count = _collect(lane, path_nm, lean, r_squared, runs, modes_max, owner, bands)
-        _search(count, steps, bands, root, found)
-        boxes = _cut(count, owner, bands, found, path_nm, subdivisions, table.shape[0] - 1, box_lane, box)
-        for i in range(boxes):  # side by side, for the vector instructions of the next loop
-            k = box_lane[i]
-            box[4, i], box[5, i], box[6, i] = lean[k], r_squared[k], weight[k]
-            box[7, i], box[8, i] = host_r[k], host_t[k]
-        for i in range(boxes):
-            box[3, i] = _transmittance(box[0, i], box[4, i], box[5, i], box[6, i], box[7, i], box[8, i])
-        _sum(boxes, box_lane, box, table, transmitted)
+def _evaluate(boxes: int, box_lane: Any, lanes: Any, box: Any, copies: Any) -> None:
+    """Fill the transmittances box[3] of `boxes` boxes; copies : scratch (5, _BOXES_AT_ONCE)."""
+    for first in range(0, boxes, _BOXES_AT_ONCE):
+        count = min(_BOXES_AT_ONCE, boxes - first)
+        for i in range(count):  # side by side, for the vector instructions of the next loop
+            for k in range(5):
+                copies[k, i] = lanes[k + 1, box_lane[first + i]]
+        middle, result = box[0, first : first + count], box[3, first : first + count]
+        for i in range(count):
+            result[i] = _transmittance(
+                middle[i], copies[0, i], copies[1, i], copies[2, i], copies[3, i], copies[4, i]
+            )
 
 
 @loop
-def landmark_search(path_nm: Any, lean: Any, r_squared: Any, runs: Any, steps: int, modes_max: int) -> float:
-    """Search as `landmark_transmittances` does, and no more; return the sum of all landmarks, for timing."""
-    capacity = _BANDS_AT_ONCE
-    owner = np.zeros(capacity, np.int64)
-    bands, found, root = np.zeros((4, capacity)), np.zeros((3, capacity)), np.zeros((5, 3 * capacity))
+def landmark_colours(cell: Any, subdivisions: int, steps: int, modes_max: int, table: Any, rgb: Any) -> None:
+    """Fill rgb (n, 3) with the colours of the first n mirrors of `cell`, as `_fill_lanes` takes them.
+
+    steps : Newton steps, 0 for ten halvings. modes_max : MODES_MAX. table : C̄, (k + 1, 3).
+    """
+    # No array is so large that the system would hand out, and clear, new memory for it at every call.
+    lanes, transmitted = np.zeros((6, 2 * _MIRRORS_AT_ONCE)), np.zeros((2 * _MIRRORS_AT_ONCE, 3))
+    owner, bands = np.zeros(_BANDS_AT_ONCE, np.int64), np.zeros((4, _BANDS_AT_ONCE))
+    found, root = np.zeros((3, _BANDS_AT_ONCE)), np.zeros((5, 3 * _BANDS_AT_ONCE))
+    many = _BOXES_PER_BAND * max(subdivisions, 1) * _BANDS_AT_ONCE
+    box_lane, box, copies = np.zeros(many, np.int64), np.zeros((4, many)), np.zeros((5, _BOXES_AT_ONCE))
+    for first in range(0, rgb.shape[0], _MIRRORS_AT_ONCE):
+        mirrors = min(_MIRRORS_AT_ONCE, rgb.shape[0] - first)
+        _fill_lanes(mirrors, cell[:, first:], lanes)
+        transmitted[:] = 0.0
+        lane = 0
+        while lane < 2 * mirrors:
+            lane, count = _collect(lane, 2 * mirrors, lanes, modes_max, owner, bands)
+            _search(count, steps, bands, root, found)
+            boxes = _cut(count, owner, bands, found, lanes, subdivisions, table.shape[0] - 1, box_lane, box)
+            _evaluate(boxes, box_lane, lanes, box, copies)
+            _sum(boxes, box_lane, box, table, transmitted)
+        for i in range(mirrors):
+            for k in range(3):
+                rgb[first + i, k] = 1.0 - 0.5 * (transmitted[i, k] + transmitted[mirrors + i, k])
+
+
+@loop
+def landmark_search(count: int, cell: Any, steps: int, modes_max: int) -> float:
+    """Search as `landmark_colours` does, and no more; return the sum of all landmarks, for timing."""
+    lanes = np.zeros((6, 2 * _MIRRORS_AT_ONCE))
+    owner, bands = np.zeros(_BANDS_AT_ONCE, np.int64), np.zeros((4, _BANDS_AT_ONCE))
+    found, root = np.zeros((3, _BANDS_AT_ONCE)), np.zeros((5, 3 * _BANDS_AT_ONCE))
     total = 0.0
-    lane = 0
-    while lane < path_nm.shape[0]:
-        lane, count = _collect(lane, path_nm, lean, r_squared, runs, modes_max, owner, bands)
-        _search(count, steps, bands, root, found)
-        for i in range(count):
-            total += found[0, i] + found[1, i] + found[2, i]
+    for first in range(0, count, _MIRRORS_AT_ONCE):
+        mirrors = min(_MIRRORS_AT_ONCE, count - first)
+        _fill_lanes(mirrors, cell[:, first:], lanes)
+        lane = 0
+        while lane < 2 * mirrors:
+            lane, many = _collect(lane, 2 * mirrors, lanes, modes_max, owner, bands)
+            _search(many, steps, bands, root, found)
+            for i in range(many):
+                total += found[0, i] + found[1, i] + found[2, i]
     return total

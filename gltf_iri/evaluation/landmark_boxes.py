@@ -8,6 +8,7 @@ the envelope is that of many.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Final
 
@@ -21,17 +22,18 @@ from gltf_iri.optics.bragg_cell import cell_optics
 from gltf_iri.optics.envelope_weight import envelope_weight, normal_r_squared
 from gltf_iri.optics.landmarks import MODES_MAX, RootFinder, band, envelope_transmittance, zero_point
 
-__all__ = ["Boxes", "Lanes", "lanes_of", "spectral_boxes"]
+__all__ = ["Boxes", "Lanes", "lanes_of", "lossless_cells", "spectral_boxes"]
 
 Float64 = NDArray[np.float64]
 
 _SHORTEST_NM, _LONGEST_NM = WAVELENGTH_RANGE_NM
+_MIRRORS_AT_ONCE: Final = 2048  # keeps temporaries inside a core's cache
 _LEAST_PATH_NM: Final = 1e-12  # stands for a cell without thickness: its first band then fills the spectrum
 
 
 @dataclass(frozen=True, slots=True)
 class Lanes:
-    """What boxes need of mirrors: two lanes each, s and p one after the other; every field is (2n,).
+    """What boxes need of mirrors: a lane for s of each, then one for p of each; every field is (2n,).
 
     path_nm : q₁d₁ + q₂d₂. lean : ρ. r_squared : r₁₂². weight : w̃. host_r, host_t : reflectance and
     transmittance from the host into n1. runs : whether light runs in both films; the rest is finite always.
@@ -71,8 +73,7 @@ class Boxes:
 
 def lanes_of(mirror: Mirror) -> Lanes:
     """Return the lanes of `mirror`; raises UsageError for cells that absorb."""
-    if not mirror.is_lossless:
-        raise UsageError("Landmarks are defined for lossless cells only: leave k out, or take yeh-spectral.")
+    _check_lossless(mirror)
     n1, n2, cos_h = mirror.n1.real, mirror.n2.real, mirror.cos_theta_h
     cell = cell_optics(mirror.host_ior, n1, n2, mirror.d1_nm, mirror.d2_nm, cos_h)
     runs = ~np.isnan(cell.path_1_nm + cell.path_2_nm)
@@ -82,7 +83,7 @@ def lanes_of(mirror: Mirror) -> Lanes:
 
     def lanes(s: Float64, p: Float64) -> Float64:
         both = [np.broadcast_to(np.where(runs, each, 0.0), mirror.shape) for each in (s, p)]
-        return np.stack(both, axis=-1).reshape(-1)
+        return np.stack(both).reshape(-1)
 
     lean = (cell.path_1_nm - cell.path_2_nm) / path
     # Without one of its films a cell has no interface; also towards grazing light, where r₁₂² nears 1.
@@ -97,8 +98,35 @@ def lanes_of(mirror: Mirror) -> Lanes:
         lanes(weight, weight),
         lanes(cell.host_r_s**2, cell.host_r_p**2),
         lanes(cell.host_t_s, cell.host_t_p),
-        np.repeat(np.broadcast_to(runs, mirror.shape), 2),
+        np.tile(np.broadcast_to(runs, mirror.shape).reshape(-1), 2),
     )
+
+
+def lossless_cells(mirror: Mirror) -> Iterator[tuple[slice, Float64]]:
+    """Yield which mirrors come next, and their cells (14, ≥ as many): `Cell`, then host, n1, n2 and cos θ_h.
+
+    One array, filled anew each time. Raises UsageError for cells that absorb.
+    """
+    _check_lossless(mirror)
+    flat = [
+        np.broadcast_to(np.real(each), mirror.shape).reshape(-1)
+        for each in (mirror.host_ior, mirror.n1, mirror.n2, mirror.d1_nm, mirror.d2_nm, mirror.cos_theta_h)
+    ]
+    count = len(flat[0])
+    cells = np.zeros((14, min(count, _MIRRORS_AT_ONCE)))
+    for start in range(0, count, _MIRRORS_AT_ONCE):
+        part = slice(start, min(start + _MIRRORS_AT_ONCE, count))
+        host, n1, n2, d1_nm, d2_nm, cos_h = (each[part] for each in flat)
+        cell = cell_optics(host, n1, n2, d1_nm, d2_nm, cos_h)
+        values = (*(getattr(cell, each.name) for each in fields(cell)), host, n1, n2, cos_h)
+        for row, value in zip(cells, values, strict=True):
+            row[: part.stop - start] = value
+        yield part, cells
+
+
+def _check_lossless(mirror: Mirror) -> None:
+    if not mirror.is_lossless:
+        raise UsageError("Landmarks are defined for lossless cells only: leave k out, or take yeh-spectral.")
 
 
 def spectral_boxes(lanes: Lanes, subdivisions: int, root_finder: RootFinder) -> Boxes:

@@ -20,7 +20,7 @@ from gltf_iri.backends import Backend
 from gltf_iri.colour.cumulative import CUMULATIVE_STEPS, cumulative_colour, cumulative_steps
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Evaluation
-from gltf_iri.evaluation.landmark_boxes import lanes_of, spectral_boxes
+from gltf_iri.evaluation.landmark_boxes import lanes_of, lossless_cells, spectral_boxes
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.optics.landmarks import MODES_MAX, ROOT_FINDERS, RootFinder, newton_steps
 from gltf_iri.planning.method import ParameterValue
@@ -69,29 +69,25 @@ def cumulative_table(white: White, **parameters: ParameterValue) -> NDArray[np.f
 def _colours(
     mirror: Mirror, white: White, subdivisions: int, root_finder: RootFinder, backend: Backend
 ) -> Float64:
+    if backend == "numba":
+        return _compiled_colours(mirror, white, subdivisions, newton_steps(root_finder))
     lanes = lanes_of(mirror)
     count = len(lanes.path_nm)
     transmitted = np.zeros((count, 3))
-    if backend == "numba":
-        from gltf_iri.compiled.landmarks import landmark_transmittances
-
-        steps = newton_steps(root_finder)
-        landmark_transmittances(
-            lanes.path_nm,
-            lanes.lean,
-            lanes.r_squared,
-            lanes.weight,
-            lanes.host_r,
-            lanes.host_t,
-            lanes.runs,
-            *(subdivisions, steps, MODES_MAX, cumulative_steps(white), transmitted),
-        )
-    else:
-        for start in range(0, count, _LANES_AT_ONCE):
-            boxes = spectral_boxes(lanes.part(start, start + _LANES_AT_ONCE), subdivisions, root_finder)
-            lane = start + boxes.lane
-            ends = (boxes.stretched(t) / (2.0 * lanes.path_nm[lane]) for t in (boxes.low, boxes.high))
-            low, high = (cumulative_colour(per_nm, white) for per_nm in ends)
-            np.add.at(transmitted, lane, boxes.transmittance[:, None] * (high - low))
-    rgb = 1.0 - 0.5 * (transmitted[0::2] + transmitted[1::2])
+    for start in range(0, count, _LANES_AT_ONCE):
+        boxes = spectral_boxes(lanes.part(start, start + _LANES_AT_ONCE), subdivisions, root_finder)
+        lane = start + boxes.lane
+        ends = (boxes.stretched(t) / (2.0 * lanes.path_nm[lane]) for t in (boxes.low, boxes.high))
+        low, high = (cumulative_colour(per_nm, white) for per_nm in ends)
+        np.add.at(transmitted, lane, boxes.transmittance[:, None] * (high - low))
+    rgb = 1.0 - 0.5 * (transmitted[: count // 2] + transmitted[count // 2 :])
     return np.asarray(rgb.reshape(*mirror.shape, 3))
+
+
+def _compiled_colours(mirror: Mirror, white: White, subdivisions: int, steps: int) -> Float64:
+    from gltf_iri.compiled.landmarks import landmark_colours
+
+    rgb = np.zeros((int(np.prod(mirror.shape, dtype=np.intp)), 3))
+    for part, cells in lossless_cells(mirror):
+        landmark_colours(cells, subdivisions, steps, MODES_MAX, cumulative_steps(white), rgb[part])
+    return rgb.reshape(*mirror.shape, 3)
