@@ -7,13 +7,17 @@ import time
 from collections.abc import Callable, Iterator
 from typing import Final
 
+from gltf_iri.backends import has_numba
 from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, colour_rows, registered
+from gltf_iri.bench.landmark_cost import landmark_cost
 from gltf_iri.bench.mirror_set import LOW_CONTRAST_CELLS, MIRROR_CELLS, low_contrast_set, mirror_set
+from gltf_iri.bench.settings import Settings
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.optics.landmarks import ROOT_FINDERS
 from gltf_iri.planning.method import METHODS, method_names
 
-__all__ = ["MIRROR_ROUNDS", "MIRROR_WORKLOADS", "measure_mirrors"]
+__all__ = ["MIRROR_ROUNDS", "MIRROR_WORKLOADS", "landmark_parts", "measure_mirrors"]
 
 MIRROR_ROUNDS: Final = 5
 
@@ -43,3 +47,21 @@ def _contestants(mirror: Mirror) -> Iterator[Contestant]:
     for name in method_names("mirror"):
         if not METHODS[name].is_truth:
             yield from registered(name, mirror)
+
+
+def landmark_parts() -> list[ColourRow]:
+    """Return rows without a colour for what `landmarks-sub` spends on what, compiled; none without numba."""
+    if not has_numba():
+        return []
+    rows = []
+    for finder in ROOT_FINDERS:
+        cost = landmark_cost(finder)
+        chosen: Settings = {"subdivisions": cost.subdivisions, "root_finder": finder}
+        parts = {
+            "constants": cost.constants_ns,
+            "search": cost.search_ns,
+            f"evaluation, {cost.reflectances:.0f} boxes": cost.evaluation_ns,
+        }
+        for part, ns in parts.items():
+            rows.append(ColourRow("mirrors-20", f"landmarks-sub: {part}", "numba", chosen, ns))
+    return rows

@@ -91,7 +91,7 @@ def _films(report: _Report, name: str, rounds: int | None) -> None:
 
 
 def _mirrors(report: _Report, rounds: int | None) -> None:
-    from gltf_iri.bench.mirrors import MIRROR_ROUNDS, MIRROR_WORKLOADS, measure_mirrors
+    from gltf_iri.bench.mirrors import MIRROR_ROUNDS, MIRROR_WORKLOADS, landmark_parts, measure_mirrors
     from gltf_iri.bench.timing import one_thread
 
     count = rounds or MIRROR_ROUNDS
@@ -99,6 +99,7 @@ def _mirrors(report: _Report, rounds: int | None) -> None:
     with one_thread(), progress("mirrors", count * len(MIRROR_WORKLOADS)) as advance:
         for name in MIRROR_WORKLOADS:
             rows += measure_mirrors(name, count, advance)
+        rows += landmark_parts()
     _add_colours(report, rows, "Mirrors against spectral truth")
 
 
@@ -128,10 +129,10 @@ def _add_colours(report: _Report, rows: list[ColourRow], title: str) -> None:
             row.label,
             row.backend,
             f"{row.ns_per_eval:,.0f}",
-            f"{row.max_abs:.2g}",
-            f"{row.delta_e_mean:.3f}",
-            f"{row.delta_e_p95:.3f}",
-            f"{row.delta_e_max:.2f}",
+            _figure(row.max_abs, ".2g"),
+            _figure(row.delta_e_mean, ".3f"),
+            _figure(row.delta_e_p95, ".3f"),
+            _figure(row.delta_e_max, ".2f"),
         )
         for row in rows
     ]
@@ -189,11 +190,11 @@ def _print_optics(rows: Iterable[OpticsRow], machine: dict[str, Any]) -> None:
             row.method,
             row.backend,
             row.version,
-            "-" if row.ns_per_eval is None else f"{row.ns_per_eval:,.4g}",
-            "-" if row.max_abs is None else f"{row.max_abs:.1e}",
+            _figure(row.ns_per_eval, ",.4g"),
+            _figure(row.max_abs, ".1e"),
             f"{row.evaluations:,}",
-            "-" if row.speedup is None else f"{row.speedup:,.3g}",
-            "-" if row.target is None else f"{row.target:,.0f}",
+            _figure(row.speedup, ",.3g"),
+            _figure(row.target, ",.0f"),
             row.remark or _standing(row),
         )
         for row in rows
@@ -201,6 +202,10 @@ def _print_optics(rows: Iterable[OpticsRow], machine: dict[str, Any]) -> None:
     vectors = {True: "with AVX-512", False: "without AVX-512", None: "AVX-512 unknown"}[machine["avx512"]]
     title = f"Reflectances against 50 digits, one thread; {machine['processor']}, {vectors}"
     print_table(columns, cells, title=title)
+
+
+def _figure(value: float | None, form: str) -> str:
+    return "-" if value is None else format(value, form)
 
 
 def _standing(row: OpticsRow) -> str:

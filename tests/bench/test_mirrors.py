@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import functools
+
 import pytest
 
+from gltf_iri.bench import mirrors
 from gltf_iri.bench.colour_rows import ColourRow
-from gltf_iri.bench.mirrors import MIRROR_WORKLOADS, measure_mirrors
+from gltf_iri.bench.landmark_cost import landmark_cost
+from gltf_iri.bench.mirrors import MIRROR_WORKLOADS, landmark_parts, measure_mirrors
 from gltf_iri.bench.settings import SETTINGS, settings_of, with_defaults
+from gltf_iri.optics.landmarks import ROOT_FINDERS
 from gltf_iri.planning.method import METHODS, method_names
 
 STATED_ON = "mirrors-20"  # what METHODS' delta_e_mean of mirrors speaks of
@@ -35,6 +40,14 @@ def test_every_method_backend_and_setting_has_its_row(rows: list[ColourRow]) -> 
     }
     assert measured == wanted
     assert all(row.ns_per_eval > 0.0 for row in rows)
+
+
+def test_what_landmarks_spend_on_what_has_rows_without_a_colour(monkeypatch: pytest.MonkeyPatch) -> None:
+    few = functools.partial(landmark_cost, count=50, rounds=1)
+    monkeypatch.setattr(mirrors, "landmark_cost", few)
+    parts = landmark_parts()
+    assert {row.parameters["root_finder"] for row in parts} == set(ROOT_FINDERS)
+    assert all(row.max_abs is None and row.delta_e_max is None for row in parts)
 
 
 @pytest.mark.parametrize("method", SETTINGS)
