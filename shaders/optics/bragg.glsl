@@ -110,11 +110,6 @@ float bragg_reflectance(BraggMirror mirror, vec2 wavenumber) {
 float bragg_reflectance(
     float host_ior, float n1, float n2, float d1_nm, float d2_nm, float cells, float wavelength_nm,
     float cos_theta_h) {
-    vec2 wavelength = halves(wavelength_nm);
-    vec2 wavenumber = halves(1.0 / wavelength_nm);
-    // What float32 rounds off 1/λ: products of the halves are exact.
-    float rest = ((1.0 - wavelength.x * wavenumber.x) - wavelength.y * wavenumber.x) - wavelength.x * wavenumber.y;
-    wavenumber.y += (rest - wavelength.y * wavenumber.y) / wavelength_nm;
     BraggMirror mirror = bragg_mirror(host_ior, n1, n2, d1_nm, d2_nm, cells, cos_theta_h);
-    return bragg_reflectance(mirror, wavenumber);
+    return bragg_reflectance(mirror, wavenumber_parts(wavelength_nm));
 }

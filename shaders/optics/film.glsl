@@ -81,6 +81,15 @@ FilmPath film_path(float outside_ior, float film_ior, float thickness_nm, float 
     return path;
 }
 
+// 1/λ in two parts, the first of twelve bits, and what float32 rounds off the quotient: products of halves are exact.
+vec2 wavenumber_parts(float wavelength_nm) {
+    vec2 wavelength = halves(wavelength_nm);
+    vec2 wavenumber = halves(1.0 / wavelength_nm);
+    float rest = ((1.0 - wavelength.x * wavenumber.x) - wavelength.y * wavenumber.x) - wavelength.x * wavenumber.y;
+    wavenumber.y += (rest - wavelength.y * wavenumber.y) / wavelength_nm;
+    return wavenumber;
+}
+
 // (cos β, sin β/q₂) for β = 2π d q₂/λ, and for a frustrated film, whose q₂ is imaginary, both over cosh |β|.
 // wavenumber : 1/λ in two parts, the first of twelve bits, 1/nm
 vec2 film_wave(FilmPath path, vec2 wavenumber) {
@@ -109,4 +118,13 @@ vec2 film_wave(FilmPath path, vec2 wavenumber) {
 // The mean of R_s and R_p.
 float film_reflectance(FilmInterfaces f, vec2 wave) {
     return f.is_mirror ? 1.0 : 0.5 * (film_reflectance(f.s, wave) + film_reflectance(f.p, wave));
+}
+
+// At one wavelength, over a base of index n + ik.
+float film_reflectance(
+    float outside_ior, float film_ior, float base_n, float base_k, float thickness_nm, float wavelength_nm,
+    float cos_theta_1) {
+    FilmInterfaces f = film_interfaces(outside_ior, film_ior, base_of_index(base_n, base_k), cos_theta_1);
+    FilmPath path = film_path(outside_ior, film_ior, thickness_nm, cos_theta_1);
+    return film_reflectance(f, film_wave(path, wavenumber_parts(wavelength_nm)));
 }
