@@ -143,12 +143,13 @@ _FILM_METHODS = (
         "The Fourier series of exact polarised interfaces, tabulated sensitivities, terms by an error bound.",
         "Belcour & Barla 2017, Eq. 5-10; bound and table in gltf_iri/evaluation/fourier.py",
         is_truth=False,
-        glsl_function=None,
+        glsl_function="iridescent_fresnel_fourier",
         delta_e_mean=0.0024,
         parameters=(
             Parameter("tolerance", "The most that the terms left out may add up to.", 1e-4, 1e-9, 0.1),
         ),
         backends=("numpy", "numba"),
+        glsl_tables=("film_sensitivity", "spectral_rule"),
     ),
     Method(
         "spectral",

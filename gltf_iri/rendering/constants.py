@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from gltf_iri.colour.sensitivity import GAUSSIANS, SENSITIVITY_WHITE, Gaussian
+from gltf_iri.colour.sensitivity_table import END_NM
 from gltf_iri.colour.spaces import XYZ_TO_REC709
-from gltf_iri.evaluation import khr, khr_guarded
+from gltf_iri.evaluation import fourier, khr, khr_guarded
 from gltf_iri.optics import layering, microfacet, sheen
-from gltf_iri.rendering import environment_light
+from gltf_iri.rendering import environment_light, optics_tables
 from gltf_iri.scene import light
 
 __all__ = ["constants_glsl", "film_constants_glsl", "glsl_float", "layer_constants_glsl"]
@@ -65,6 +66,20 @@ def film_constants_glsl() -> str:
             _scalar("MAX_R123", khr_guarded.MAX_R123),
             _scalar("MATCHED_F0", khr_guarded.MATCHED_F0),
             _scalar("THIN_OPD_NM", khr_guarded.THIN_OPD_NM),
+        ],
+        [
+            "// gltf_iri/rendering/optics_tables.py",
+            _scalar("SENSITIVITY_FINE_PER_NM", optics_tables.SENSITIVITY_FINE_PER_NM),
+            _scalar("SENSITIVITY_FINE_END_NM", optics_tables.SENSITIVITY_FINE_END_NM),
+            _scalar("SENSITIVITY_LAST", optics_tables.SENSITIVITY_LAST),
+            f"const int SENSITIVITY_ROW = {optics_tables.SENSITIVITY_ROW};",
+            f"const int SENSITIVITY_ROWS = {optics_tables.SENSITIVITY_ROWS};",
+            f"const int SPECTRAL_SMOOTH_COUNT = {optics_tables.SPECTRAL_SMOOTH_DEGREE + 1};",
+        ],
+        [
+            "// gltf_iri/evaluation/fourier.py",
+            _scalar("FOURIER_THIN_OPD_NM", fourier.THIN_OPD_NM),
+            f"const int FOURIER_ORDERS = {int(END_NM / fourier.THIN_OPD_NM)};",
         ],
     )
 

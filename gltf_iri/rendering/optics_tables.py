@@ -15,15 +15,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.colour.quadrature import HALF_BANDWIDTH_PER_NM, colour_rule
+from gltf_iri.colour.sensitivity_table import END_NM, sensitivity_table
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import MissingCapabilityError, UsageError
+from gltf_iri.evaluation.landmarks import cumulative_table
 from gltf_iri.planning.method import ParameterValue
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["OPTICS_TABLES", "SPECTRAL_DEGREE", "SPECTRAL_OPD_MAX_NM", "OpticsTableStore", "optics_table"]
-__all__ += ["table_texture"]
+__all__ = ["OPTICS_TABLES", "SENSITIVITY_FINE_END_NM", "SENSITIVITY_FINE_PER_NM", "SENSITIVITY_LAST"]
+__all__ += [
+    "SENSITIVITY_ROW",
+    "SENSITIVITY_ROWS",
+    "SPECTRAL_DEGREE",
+    "SPECTRAL_OPD_MAX_NM",
+    "SPECTRAL_SMOOTH_DEGREE",
+]
+__all__ += ["OpticsTableStore", "optics_table", "table_texture"]
 
 Float32 = NDArray[np.float32]
 
@@ -34,20 +43,64 @@ _CHANNELS: Final = 4
 
 SPECTRAL_DEGREE: Final = 512
 
+# Spectra without fringes, of films that are very thin or frustrated.
+SPECTRAL_SMOOTH_DEGREE: Final = 32
+
+# Ŝ between texels is read linearly, which errs by h²/8 · |Ŝ″|: 2e-6 at a quarter of a nanometre, and beyond
+# the fine part, where |Ŝ| has fallen below 0.05, no more at a whole one.
+SENSITIVITY_FINE_PER_NM: Final = 4
+SENSITIVITY_FINE_END_NM: Final = 4096
+SENSITIVITY_ROW: Final = 1024
+SENSITIVITY_LAST: Final = SENSITIVITY_FINE_END_NM * (SENSITIVITY_FINE_PER_NM - 1) + int(END_NM)
+SENSITIVITY_ROWS: Final = SENSITIVITY_LAST // SENSITIVITY_ROW + 1
+
 # Fringes of a longer path difference (some 100 µm) are not resolved by so many wavelengths.
 SPECTRAL_OPD_MAX_NM: Final = SPECTRAL_DEGREE / (2.0 * np.pi * HALF_BANDWIDTH_PER_NM)
 
 
 def _spectral_rule(white: White, **parameters: ParameterValue) -> Float32:
-    """Return (2, SPECTRAL_DEGREE + 1, 3): 1/λ in 1/nm as a part of twelve bits and the rest; the weights."""
-    rule = colour_rule(SPECTRAL_DEGREE, white)
+    """Return (3, SPECTRAL_DEGREE + 1, 4).
+
+    The first row holds 1/λ in 1/nm as a part of twelve bits and the rest, the second the weights, the third
+    weights and 1/λ of the rule of SPECTRAL_SMOOTH_DEGREE.
+    """
+    rows = np.zeros((3, SPECTRAL_DEGREE + 1, 4), dtype=np.float32)
+    rule, smooth = colour_rule(SPECTRAL_DEGREE, white), colour_rule(SPECTRAL_SMOOTH_DEGREE, white)
     wavenumber = 1.0 / rule.wavelength_nm
     leading = (wavenumber.astype(np.float32).view(np.uint32) & np.uint32(0xFFFFF000)).view(np.float32)
-    parts = np.column_stack([leading, wavenumber - leading, np.zeros_like(wavenumber)])
-    return np.stack([parts, rule.weights]).astype(np.float32)
+    rows[0, :, 0], rows[0, :, 1] = leading, wavenumber - leading
+    rows[1, :, :3] = rule.weights
+    rows[2, : SPECTRAL_SMOOTH_DEGREE + 1, :3] = smooth.weights
+    rows[2, : SPECTRAL_SMOOTH_DEGREE + 1, 3] = 1.0 / smooth.wavelength_nm
+    return rows
 
 
-OPTICS_TABLES: Final[Mapping[str, TableFill]] = MappingProxyType({"spectral_rule": _spectral_rule})
+def _film_sensitivity(white: White, tolerance: float = 1.0, **parameters: ParameterValue) -> Float32:
+    """Return (2 · SENSITIVITY_ROWS, SENSITIVITY_ROW + 1, 4): Re Ŝ, and in the rows after it Im Ŝ.
+
+    From texel to texel the path difference grows by 1/SENSITIVITY_FINE_PER_NM, and from
+    SENSITIVITY_FINE_END_NM on by 1 nm; a row's last texel is the next one's first. The fourth channel is the
+    envelope over half of `tolerance`.
+    """
+    fine_nm = np.arange(SENSITIVITY_FINE_END_NM * SENSITIVITY_FINE_PER_NM) / SENSITIVITY_FINE_PER_NM
+    opd_nm = np.concatenate([fine_nm, np.arange(SENSITIVITY_FINE_END_NM, END_NM)])
+    table = sensitivity_table(white)
+    texels = np.zeros((2, SENSITIVITY_ROWS * SENSITIVITY_ROW + 1, 4))
+    values = table.at(opd_nm)
+    texels[0, : len(opd_nm), :3], texels[1, : len(opd_nm), :3] = values.real, values.imag
+    texels[0, : len(opd_nm), 3] = table.bound(opd_nm) * (2.0 / tolerance)
+    starts = SENSITIVITY_ROW * np.arange(SENSITIVITY_ROWS)[:, None]
+    rows = texels[:, starts + np.arange(SENSITIVITY_ROW + 1)]
+    return rows.reshape(-1, SENSITIVITY_ROW + 1, 4).astype(np.float32)
+
+
+OPTICS_TABLES: Final[Mapping[str, TableFill]] = MappingProxyType(
+    {
+        "spectral_rule": _spectral_rule,
+        "film_sensitivity": _film_sensitivity,
+        "cumulative_colour": cumulative_table,
+    }
+)
 
 
 def optics_table(name: str, white: str, parameters: Mapping[str, ParameterValue]) -> Float32:

@@ -26,3 +26,15 @@ const float MAX_F0 = 0.9999;
 const float MAX_R123 = 0.9999;
 const float MATCHED_F0 = 0.005;
 const float THIN_OPD_NM = 100.0;
+
+// gltf_iri/rendering/optics_tables.py
+const float SENSITIVITY_FINE_PER_NM = 4.0;
+const float SENSITIVITY_FINE_END_NM = 4096.0;
+const float SENSITIVITY_LAST = 76288.0;
+const int SENSITIVITY_ROW = 1024;
+const int SENSITIVITY_ROWS = 75;
+const int SPECTRAL_SMOOTH_COUNT = 33;
+
+// gltf_iri/evaluation/fourier.py
+const float FOURIER_THIN_OPD_NM = 20.0;
+const int FOURIER_ORDERS = 3200;

@@ -10,6 +10,10 @@
 #include "optics/khr_guarded.glsl"
 #define FILM_FRESNEL iridescent_fresnel_khr_guarded
 #endif
+#ifdef METHOD_FOURIER
+#include "optics/fourier.glsl"
+#define FILM_FRESNEL iridescent_fresnel_fourier
+#endif
 #ifdef METHOD_SPECTRAL
 #include "optics/spectral.glsl"
 #define FILM_FRESNEL iridescent_fresnel_spectral

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -18,11 +19,12 @@ from gltf_iri.optics.refraction import normal_index_squared
 from gltf_iri.planning.method import METHODS
 from gltf_iri.rendering.optics_tables import SPECTRAL_DEGREE, optics_table
 from gltf_iri.rendering.probe import Probe
+from gltf_iri.rendering.twins import ResultType
 from gltf_iri.tolerances import GLSL_BRANCH_ULP, GLSL_OPTICS_MAX_ABS
 
 Float64 = NDArray[np.float64]
 
-ROWS = 10_000
+ROWS = 4_000
 AT_ONCE = 500
 
 
@@ -35,7 +37,14 @@ def spectral_by_the_same_rule(film: Film) -> Float64:
     )
 
 
-PYTHON: dict[str, Callable[[Film], Float64]] = {"spectral": spectral_by_the_same_rule}
+def fourier(film: Film) -> Float64:
+    return evaluate("fourier", film, backend="numpy").rgb
+
+
+PYTHON: dict[str, Callable[[Film], Float64]] = {"fourier": fourier, "spectral": spectral_by_the_same_rule}
+
+# Bases by their index where the twin of bases by F0 does not stand beside them.
+BY_INDEX = {"fourier": "optics/fourier_index.glsl"}
 
 
 def some(film: Film, rows: slice) -> Film:
@@ -97,7 +106,7 @@ HARD = list(
 def test_hard_films_are_numbers_between_nothing_and_all(method: str, probe: Probe) -> None:
     cosine, nm, film_ior, f0, outside = np.array(HARD).T
     given = [outside, film_ior, np.repeat(f0[:, None], 3, axis=1), nm, cosine]
-    rgb = called(probe, method, given)
+    rgb = called(probe, method, given, f"optics/{method}.glsl")
     assert np.isfinite(rgb).all()
     # Negative lobes of Rec.709 let a colour leave [0, 1]; no film of these does by more.
     assert rgb.min() >= -0.3
@@ -117,14 +126,15 @@ def test_absorbing_bases_enter_by_their_index(method: str, probe: Probe) -> None
     index = n.astype(np.float64) + 1j * k
     base = Base(np.zeros((1000, 3)), index)
     python = PYTHON[method](Film(cosine, nm, film_ior, base, np.ones(1000)))
-    glsl = called(probe, method, [1.0, film_ior, n, k, nm, cosine])
+    file = BY_INDEX.get(method, f"optics/{method}.glsl")
+    glsl = called(probe, method, [1.0, film_ior, n, k, nm, cosine], file)
     assert np.abs(glsl - python).max() <= GLSL_OPTICS_MAX_ABS
 
 
-def called(probe: Probe, method: str, arguments: list[NDArray[np.float64]]) -> Float64:
+def called(probe: Probe, method: str, arguments: list[Any], file: str) -> Float64:
     twin = METHODS[method]
-    tables = {name: optics_table(name, "D65", {}) for name in twin.glsl_tables}
-    types = ["vec3" if np.shape(a)[-1:] == (3,) else "float" for a in arguments]
-    return probe.call(
-        twin.glsl_function, f"optics/{method}.glsl", arguments, argument_types=types, tables=tables
-    ).astype(np.float64)
+    defaults = {parameter.name: parameter.default for parameter in twin.parameters}
+    tables = {name: optics_table(name, "D65", defaults) for name in twin.glsl_tables}
+    types: list[ResultType] = ["vec3" if np.shape(a)[-1:] == (3,) else "float" for a in arguments]
+    function = twin.glsl_function or ""
+    return probe.call(function, file, arguments, argument_types=types, tables=tables).astype(np.float64)

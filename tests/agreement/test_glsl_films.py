@@ -20,7 +20,7 @@ from gltf_iri.tolerances import GLSL_BRANCH_ULP, GLSL_OPTICS_MAX_ABS
 PYTHON = {"khr": evaluate_khr, "khr-guarded": evaluate_khr_guarded}
 
 # Compared in test_glsl_exact_films.py and test_glsl_granier.py.
-ELSEWHERE = {"spectral", "granier-heidrich"}
+ELSEWHERE = {"fourier", "spectral", "granier-heidrich"}
 
 POLE = "Fresnel0ToIor"  # the undefined case in which the text divides by zero
 
