@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any, Final
 
 import numpy as np
@@ -20,6 +20,7 @@ from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import METHODS
 
 __all__ = ["WHITE", "ColourRow", "Contestant", "colour_row", "colour_rows", "registered"]
+__all__ += ["with_ratios"]
 
 Float64 = NDArray[np.float64]
 WHITE: Final[White] = "D65"
@@ -41,6 +42,7 @@ class ColourRow:
 
     Errors are None for a part of a method, which ends in no colour.
     ns_per_eval is a median, taken in the same rounds as that of every row of its workload.
+    ratio is that time over the one of the method `ratio_to`, on the same backend and with its defaults.
     """
 
     workload: str
@@ -52,6 +54,8 @@ class ColourRow:
     delta_e_mean: float | None = None
     delta_e_p95: float | None = None
     delta_e_max: float | None = None
+    ratio: float | None = None
+    ratio_to: str = ""
 
     def to_json(self) -> dict[str, Any]:
         """Return the row of `bench --json`."""
@@ -90,6 +94,20 @@ def colour_rows(
     return [
         colour_row((workload, each.method, each.backend), each.parameters, time_ns / len(truth), rgb, truth)
         for each, rgb, time_ns in zip(contestants, colours, times_ns, strict=True)
+    ]
+
+
+def with_ratios(rows: Sequence[ColourRow], ratio_to: str) -> list[ColourRow]:
+    """Return the rows of one workload with their times over those of the method called `ratio_to`."""
+    reference: dict[str, float] = {}
+    for row in rows:
+        if row.method == ratio_to:
+            reference.setdefault(row.backend, row.ns_per_eval)
+    return [
+        replace(row, ratio=row.ns_per_eval / reference[row.backend], ratio_to=ratio_to)
+        if row.backend in reference
+        else row
+        for row in rows
     ]
 
 

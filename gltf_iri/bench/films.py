@@ -9,16 +9,17 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, colour_rows, registered
+from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, colour_rows, registered, with_ratios
 from gltf_iri.bench.film_set import film_set
 from gltf_iri.bench.fourier_variants import exact_interfaces, khr_with_exact_sensitivity
 from gltf_iri.evaluation.film import Film, base_from_ior
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import method_names
 
-__all__ = ["FILM_ROUNDS", "FILM_WORKLOADS", "measure_films", "thicker_film_set"]
+__all__ = ["FILM_ROUNDS", "FILM_WORKLOADS", "RATIO_TO", "measure_films", "thicker_film_set"]
 
 FILM_ROUNDS: Final = 5
+RATIO_TO: Final = "khr"
 _ORDERS: Final = (1, 2, 3, 6)
 
 
@@ -38,7 +39,8 @@ def measure_films(
     """Return one row for each film method, its parameters and backends, and for the text's variants."""
     film = FILM_WORKLOADS[workload]()
     truth = evaluate("spectral", film, white=WHITE, backend="numpy").rgb
-    return colour_rows(workload, list(_contestants(film)), truth, rounds, after_round)
+    rows = colour_rows(workload, list(_contestants(film)), truth, rounds, after_round)
+    return with_ratios(rows, RATIO_TO)
 
 
 def _contestants(film: Film) -> Iterator[Contestant]:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Final
 
-from gltf_iri.bench.colour_rows import WHITE, ColourRow, colour_row
+from gltf_iri.bench import films, mirrors
+from gltf_iri.bench.colour_rows import WHITE, ColourRow, colour_row, with_ratios
 from gltf_iri.bench.film_set import film_set
 from gltf_iri.bench.mirror_set import mirror_set
 from gltf_iri.bench.settings import Settings, settings_of, with_defaults
@@ -44,7 +45,8 @@ def measure_glsl(
         subject = subjects()
         names = [name for name in method_names(domain) if METHODS[name].glsl_function]
         if names:
-            rows += _measure(context, workload, subject, names, rounds)
+            measured = list(_measure(context, workload, subject, names, rounds))
+            rows += with_ratios(measured, films.RATIO_TO if domain == "film" else mirrors.RATIO_TO)
         after_workload()
     return rows
 

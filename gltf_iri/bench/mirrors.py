@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from typing import Final
 
 from gltf_iri.backends import has_numba
-from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, colour_rows, registered
+from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, colour_rows, registered, with_ratios
 from gltf_iri.bench.landmark_cost import landmark_cost
 from gltf_iri.bench.mirror_set import LOW_CONTRAST_CELLS, MIRROR_CELLS, low_contrast_set, mirror_set
 from gltf_iri.bench.settings import Settings
@@ -17,9 +17,10 @@ from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.landmarks import ROOT_FINDERS
 from gltf_iri.planning.method import METHODS, method_names
 
-__all__ = ["MIRROR_ROUNDS", "MIRROR_WORKLOADS", "landmark_parts", "measure_mirrors"]
+__all__ = ["MIRROR_ROUNDS", "MIRROR_WORKLOADS", "RATIO_TO", "landmark_parts", "measure_mirrors"]
 
 MIRROR_ROUNDS: Final = 5
+RATIO_TO: Final = "landmarks-sub"
 
 MIRROR_WORKLOADS: Final[dict[str, Callable[[], Mirror]]] = {
     **{f"mirrors-{cells}": functools.partial(mirror_set, cells) for cells in MIRROR_CELLS},
@@ -40,7 +41,10 @@ def measure_mirrors(
     truth = evaluate(truth_by, mirror, white=WHITE, backend="numpy").rgb
     truth_ns = (time.perf_counter_ns() - start) / len(truth)
     rows = colour_rows(workload, list(_contestants(mirror)), truth, rounds, after_round)
-    return [ColourRow(workload, truth_by, "numpy", {}, truth_ns, 0.0, 0.0, 0.0, 0.0), *rows]
+    return [
+        ColourRow(workload, truth_by, "numpy", {}, truth_ns, 0.0, 0.0, 0.0, 0.0),
+        *with_ratios(rows, RATIO_TO),
+    ]
 
 
 def _contestants(mirror: Mirror) -> Iterator[Contestant]:

@@ -14,7 +14,7 @@ Settings = Mapping[str, ParameterValue]
 # Beside the defaults, which come first for every method.
 SETTINGS: Final[Mapping[str, tuple[Settings, ...]]] = {
     "fourier": ({"tolerance": 1e-3}, {"tolerance": 1e-6}),
-    "bloch": ({"samples": 12}, {"samples": 24}),
+    "bloch": ({"samples": 16}, {"samples": 24}),
     "landmarks-sub": (
         *({"subdivisions": s} for s in (2, 4, 5)),
         *({"root_finder": finder} for finder in ("newton-1", "bisect-10")),
@@ -24,7 +24,11 @@ SETTINGS: Final[Mapping[str, tuple[Settings, ...]]] = {
 
 def settings_of(method: str) -> tuple[Settings, ...]:
     """Return what is chosen of a method's parameters, a row each; the first chooses nothing."""
-    return ({}, *SETTINGS.get(method, ()))
+    different: list[Settings] = [{}]
+    for chosen in SETTINGS.get(method, ()):
+        if with_defaults(method, chosen) not in [with_defaults(method, each) for each in different]:
+            different.append(chosen)
+    return tuple(different)
 
 
 def with_defaults(method: str, chosen: Settings) -> dict[str, ParameterValue]:

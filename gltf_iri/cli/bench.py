@@ -122,13 +122,14 @@ def _add_colours(report: _Report, rows: list[ColourRow], title: str) -> None:
 
     report.machine.update(machine())
     report.rows += rows
-    columns = ("workload", "method", "backend", "ns/eval", "max abs", "ΔE mean", "ΔE p95", "ΔE max")
+    figures = ("ns/eval", "ratio", "max abs", "ΔE mean", "ΔE p95", "ΔE max")
     cells = [
         (
             row.workload,
             row.label,
             row.backend,
             f"{row.ns_per_eval:,.0f}",
+            _figure(row.ratio, ".2f"),
             _figure(row.max_abs, ".2g"),
             _figure(row.delta_e_mean, ".3f"),
             _figure(row.delta_e_p95, ".3f"),
@@ -136,7 +137,9 @@ def _add_colours(report: _Report, rows: list[ColourRow], title: str) -> None:
         )
         for row in rows
     ]
-    report.tables.append(lambda: print_table(columns, cells, title=f"{title}, D65 white, CIEDE2000"))
+    reference = " or ".join(dict.fromkeys(row.ratio_to for row in rows if row.ratio_to))
+    whole = f"{title}, D65 white, CIEDE2000" + (f"; ratio of times to {reference}" if reference else "")
+    report.tables.append(lambda: print_table(("workload", "method", "backend", *figures), cells, title=whole))
 
 
 def _optics(

@@ -50,6 +50,14 @@ def test_what_landmarks_spend_on_what_has_rows_without_a_colour(monkeypatch: pyt
     assert all(row.max_abs is None and row.delta_e_max is None for row in parts)
 
 
+def test_ratios_are_those_of_times_on_the_same_backend(rows: list[ColourRow]) -> None:
+    for row in rows:
+        if row.method == "yeh-spectral":
+            continue
+        reference = next(r for r in rows if (r.method, r.backend) == ("landmarks-sub", row.backend))
+        assert row.ratio == row.ns_per_eval / reference.ns_per_eval
+
+
 @pytest.mark.parametrize("method", SETTINGS)
 def test_settings_are_those_that_a_method_knows(method: str) -> None:
     known = {each.name: each for each in METHODS[method].parameters}

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from gltf_iri.bench.film_set import film_set
 from gltf_iri.bench.films import FILM_WORKLOADS
 from gltf_iri.bench.workloads import WORKLOADS
 from gltf_iri.cli import bench
@@ -15,7 +16,10 @@ from gltf_iri.cli.main import run
 CONTRACT = {"workload", "method", "backend", "ns_per_eval", "max_abs", "delta_e_mean", "delta_e_p95"}
 
 
-def test_rows_of_films_keep_the_contract(capsys: pytest.CaptureFixture[str]) -> None:
+def test_rows_of_films_keep_the_contract(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(FILM_WORKLOADS, "films", lambda: film_set(40))
     assert run(["bench", "films", "--rounds", "1", "--json"]) == 0
     report = json.loads(capsys.readouterr().out)
     rows = report["rows"]
