@@ -44,7 +44,7 @@ def film_reflectance(
     )
     n3 = np.asarray(base_index, dtype=np.complex128)
     inputs = [n1, n2, n3.real, n3.imag, c1, thickness, wavelength]
-    shape = np.broadcast_shapes(*(a.shape for a in inputs))
+    shape = np.broadcast(*inputs).shape
     one = np.ones(1)
     columns = [one, one]
     for which in (6, 5):
@@ -114,9 +114,11 @@ def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
         elif g_s == 0.0 and g_p == 0.0:
             for j in range(padded):
                 turns = high * first[j]
-                x = abs((turns - np.rint(turns)) + (high * second[j] + rest * whole[j]))
-                is_steep = x > 0.25
-                sine = sine_of_octant(0.5 * (0.5 - x if is_steep else x))
+                part = turns - np.rint(turns)
+                more = high * second[j] + rest * whole[j]
+                size, more = abs(part), (-more if part < 0.0 else more)
+                is_steep = size > 0.25  # taken from a quarter turn, exactly, the phase keeps its digits there
+                sine = sine_of_octant(0.5 * ((0.5 - size) - more if is_steep else size + more))
                 small = sine * sine
                 large = 1.0 - small
                 sine_squared = large if is_steep else small
@@ -126,8 +128,10 @@ def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
         else:
             for j in range(padded):
                 turns = high * first[j]
-                x = (turns - np.rint(turns)) + (high * second[j] + rest * whole[j])
-                sine, cosine = sine_of_quadrant(0.5 * x), sine_of_quadrant(0.25 - 0.5 * abs(x))
+                part = turns - np.rint(turns)
+                more = high * second[j] + rest * whole[j]
+                sine = sine_of_quadrant(0.5 * (part + more))
+                cosine = sine_of_quadrant(0.5 * ((0.5 - abs(part)) - (-more if part < 0.0 else more)))
                 through_s, through_p = cosine + g_s * sine, cosine + g_p * sine
                 d_s = through_s * through_s + h_s * (sine * sine)
                 d_p = through_p * through_p + h_p * (sine * sine)

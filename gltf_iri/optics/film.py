@@ -42,8 +42,10 @@ _NO_INDEX: Final = 1e-150  # below, n² underflows; such a base reflects everyth
 # Flatter light than this is at its limit to the last bit; no square of it underflows, no ratio overflows.
 _GRAZING: Final = 1e-40
 
-# From so many half turns on, phases are multiplied with twice float64's digits: each costs 4e-16 rad here.
+# From so many half turns on, phases are multiplied with twice float64's digits: each would cost 4e-16 rad.
 _MANY_HALF_TURNS: Final = 4.0
+_POLE: Final = 1e-17  # half turns from tan's pole, in place of none: as near as float64 comes to π/2
+_SHARP: Final = 0.05**2  # so do resonances narrower than this, squared
 
 
 def film_reflectance(
@@ -107,34 +109,34 @@ class _Films:
         is_mirror = (size < _NO_INDEX) | np.isinf(size)
         n3 = np.where(is_mirror, 1.0, n3)
 
-        most = [np.max(a, initial=0.0) for a in (thickness, n1, n2)]
-        half_turns = 2.0 * most[0] * max(most[1:]) / np.min(wavelength, initial=np.inf)
-        is_thick = bool(half_turns > _MANY_HALF_TURNS)
-        if is_thick:
-            q2_squared, low = normal_index_squared_exact(n2, n1, c1)
-        else:
-            q2_squared, low = normal_index_squared_real(n2, n1, c1), 0.0
+        q2_squared = normal_index_squared_real(n2, n1, c1)
         is_frustrated = q2_squared < 0.0
         sign: Any = 1.0
         self._sign = None
         if np.any(is_frustrated):
             sign = np.where(is_frustrated, -1.0, 1.0)
             self._sign = sign[None]
-        inside = np.maximum(sign * q2_squared, _GRAZING**2)
-        q2 = square_root(inside, sign * low) if is_thick else (np.sqrt(inside),)
-        self._by_angle, self._by_wavelength = _phase_factors(q2, 2.0 * thickness, wavelength)
+        q2: Any = np.sqrt(np.maximum(sign * q2_squared, _GRAZING**2))
         if np.any(n3.imag):
             of: Any = _on_absorber
             q3: Any = normal_index(normal_index_squared(n3, n1, c1))
         else:  # what a real base reflects in total enters it nowhere: Re q₃ = 0
             of, n3 = _on_dielectric, n3.real
             q3 = np.sqrt(np.maximum(normal_index_squared_real(n3, n1, c1), 0.0))
-        y1, y2 = n1 * c1, q2[0]
+        y1, y2 = n1 * c1, q2
         share = np.where(is_mirror, 0.0, 2.0)  # half of 4: the mean of both polarisations
         s = of(share, y1, sign, y2, q3)
         p = of(share, y1 / (n1 * n1), sign, y2 / (n2 * n2), q3 / (n3 * n3))
         # κ/2, h² and, where a base absorbs, g: of s, then of p
         self._coefficients = _table(*s, *p)
+
+        digits: tuple[Any, ...] = (q2,)
+        most = [np.max(a, initial=0.0) for a in (thickness, n1, n2)]
+        half_turns = 2.0 * most[0] * max(most[1:]) / np.min(wavelength, initial=np.inf)
+        if half_turns > _MANY_HALF_TURNS or _is_sharp(*s) or _is_sharp(*p):
+            exact, low = normal_index_squared_exact(n2, n1, c1)
+            digits = square_root(np.maximum(sign * exact, _GRAZING**2), sign * low)
+        self._by_angle, self._by_wavelength = _phase_factors(digits, 2.0 * thickness, wavelength)
 
     def reflectances(self, *, mean: bool) -> list[Float64]:
         """Return [(R_s + R_p)/2] or [R_s, R_p], each of `shape`."""
@@ -179,36 +181,48 @@ def _on_absorber(share: Any, y1: Any, sign: Any, y2: Any, y3: Any) -> tuple[Any,
     return share * y1 * x3 / size, h * h, (y1 * y1 - inside) * z3 * scale
 
 
+def _is_sharp(_: Any, h_squared: Any, g: Any = 0.0) -> bool:
+    """Return whether a resonance is so narrow, h/(1 + g²) or 1/h, that it magnifies what rounds the phase."""
+    wide = 1.0 + g * g
+    return bool(np.any((h_squared < _SHARP * (wide * wide)) | (h_squared * _SHARP > 1.0)))
+
+
 def _phase_factors(q2: tuple[Any, ...], twice_nm: Float64, wavelength: Float64) -> tuple[Float64, Float64]:
     """Return what `_write_tangent` multiplies: of the angle and the wavelength, the thickness with either."""
-    is_thick = len(q2) > 1
-    per_nm = reciprocal(wavelength) if is_thick else (1.0 / wavelength,)
+    is_exact = len(q2) > 1
+    per_nm = reciprocal(wavelength) if is_exact else (1.0 / wavelength,)
     # The thickness goes with the angles, unless that would make a whole grid of them.
     together = np.broadcast_shapes(np.shape(q2[0]), twice_nm.shape)
     if np.prod(together) <= max(np.size(q2[0]), wavelength.size):
         q2 = _times(q2, twice_nm)
     else:
         per_nm = _times(per_nm, twice_nm)
-    if is_thick:
+    if is_exact:
         return _table(*_halves(*q2)), _table(*_halves(*per_nm))
     return _table(np.pi * q2[0]), _table(per_nm[0])
 
 
 def _write_tangent(a: Float64, b: Float64, sign: Float64 | None, t: Float64, *spare: Float64) -> None:
-    """Write tan β into t, tanh where `sign` is negative; for many turns, those come off an exact product."""
+    """Write tan β into t, tanh where `sign` is negative, for one factor each or three: `_phase_factors`."""
     rest, whole = spare
     np.multiply(a[0], b[0], out=t)
-    if len(a) > 1:
-        np.rint(t, out=whole)
+    if len(a) == 1:
+        fading = None if sign is None else np.tanh(t)
+        np.tan(t, out=t)
+    else:
         np.multiply(a[0], b[1], out=rest)
-        if sign is not None:  # tanh knows no turns
-            whole *= sign > 0.0
-        t -= whole
+        rest += np.multiply(a[1], b[2], out=whole)
+        fading = None if sign is None else np.tanh(np.pi * (t + rest))
+        # Whole half turns come off exactly. From an eighth of a turn on the cotangent of what is left to a
+        # quarter, which as a difference is exact too, keeps the digits next to the pole.
+        t -= np.rint(t, out=whole)
+        is_steep = np.abs(t) > 0.25
+        np.copyto(t, np.copysign(0.5, t) - t, where=is_steep)
+        np.negative(rest, out=rest, where=is_steep)
         t += rest
-        t += np.multiply(a[1], b[2], out=rest)
-        t *= np.pi
-    fading = None if sign is None else np.tanh(t)
-    np.tan(t, out=t)
+        np.copyto(t, _POLE, where=is_steep & (t == 0.0))
+        np.tan(np.multiply(t, np.pi, out=t), out=t)
+        np.divide(1.0, t, out=t, where=is_steep)
     if sign is not None and fading is not None:
         np.copyto(t, fading, where=sign < 0.0)
 
