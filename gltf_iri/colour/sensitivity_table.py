@@ -139,8 +139,9 @@ def tabulate_sensitivity(density: Density, *, opd_std_nm: float = 0.0) -> Sensit
 def _place(opd_nm: Float64) -> tuple[NDArray[np.intp], Float64]:
     scaled = opd_nm / STEP_NM
     # Keeps what lies beyond the table, and NaN, from asking for a cell that is not there.
-    cell = np.where(scaled < CELLS, scaled, CELLS - 1.0).astype(np.intp)
-    return cell, scaled - cell
+    inside = np.where(scaled < CELLS, scaled, CELLS - 1.0)
+    cell = inside.astype(np.intp)
+    return cell, np.where(np.isnan(scaled), scaled, inside - cell)
 
 
 def _panels(density: Density) -> tuple[Float64, Float64]:
