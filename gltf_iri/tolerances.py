@@ -31,7 +31,7 @@ __all__ = [
 # and reachable in float64 for films of every thickness up to some tens of micrometres.
 COLOUR_CONVERGENCE: Final = 1e-9
 
-# float64 Airy reflectance against 50 digits: a few dozen roundings of 1.1e-16, amplified by narrow resonances.
+# float64 Airy reflectance against 50 digits: a few dozen roundings of 1.1e-16, magnified by sharp resonances.
 SPECTRAL_REFLECTANCE_MAX_ABS: Final = 1e-14
 SPECTRAL_COLOUR_MAX_ABS: Final = 1e-9
 
@@ -54,8 +54,8 @@ GLSL_LANDMARKS_THICK_MAX_ABS: Final = 1e-4
 GLSL_LANDMARKS_GRAZING_MAX_ABS: Final = 4e-3
 GLSL_LANDMARKS_HALVED_MAX_ABS: Final = 6e-3
 
-# Mirrors by bloch: a dozen samples of float32, whose weights add up to six. In cells of 0.1 mm float32 keeps 1e-5
-# of a turn of the phase; towards grazing light, 1e-4 of what a contrast of 10⁴ leaves through.
+# Mirrors by bloch: a dozen samples of float32, whose weights add up to six. In cells of 0.1 mm float32 keeps
+# 1e-5 of a turn of the phase; towards grazing light, 1e-4 of what a contrast of 10⁴ lets through.
 GLSL_BLOCH_MAX_ABS: Final = 4e-5
 GLSL_BLOCH_THICK_MAX_ABS: Final = 2e-4
 
