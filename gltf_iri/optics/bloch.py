@@ -75,6 +75,9 @@ class BlochCell:
         ratio[0], ratio[1], paths_nm[0], paths_nm[1] = films[2], films[3], films[0], films[1]
         constants[1, 0], constants[1, 1] = films.imbalance_s, films.imbalance_p
         constants[2, 0], constants[2, 1], constants[3, 0], constants[3, 1] = host
+        is_single = films.path_2_nm == 0.0
+        if is_single.any():  # without a second film there is no contrast, at whatever angle
+            ratio, constants[1] = np.where(is_single, 1.0, ratio), np.where(is_single, 0.0, constants[1])
         is_opaque = films.fades_in_1 | ~((ratio < _CONTRAST_MAX) & (ratio > 1.0 / _CONTRAST_MAX))
         constants, ratio, paths_nm = (
             constants.reshape(6, 2, -1),

@@ -214,8 +214,9 @@ _MIRROR_METHODS: tuple[Method, ...] = (
         "Samples beside the real axis of wavenumbers, where fringes fade, and a pole for each band gap.",
         "this project; spec/decisions/bloch.md",
         is_truth=False,
-        glsl_function=None,
-        delta_e_mean=0.05,  # 20 cells
+        glsl_function="bragg_reflectance_bloch",
+        delta_e_mean=0.04,  # 20 cells
+        glsl_tables=("bloch_weights",),
         parameters=(Parameter("samples", "Wavenumbers a polarisation.", 12, 8.0, 128.0),),
         backends=("numpy", "numba"),
     ),
