@@ -15,7 +15,7 @@ from gltf_iri.compiled.loops import inline, loop
 from gltf_iri.compiled.sincos import sincos_turns
 
 if TYPE_CHECKING:
-    from gltf_iri.optics.stack import Layers
+    from gltf_iri.optics.stack_layers import Layers
 
 __all__ = ["stack_power_compiled"]
 

@@ -10,13 +10,12 @@ is positive, so small losses keep their digits, where the flux above less the fl
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from gltf_iri.optics.stack import Layers
+from gltf_iri.optics.stack_layers import Layers
 
 __all__ = ["absorbed_in_layer"]
 

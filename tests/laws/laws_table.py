@@ -156,7 +156,7 @@ def _table(which: str) -> Iterator[str]:
 
 
 def _without_wavelength() -> Iterator[str]:
-    yield "Laws at one wavelength are asked of functions; integrals over many cannot keep them. Each method's:"
+    yield "Laws at one wavelength are asked of functions; no integral over many keeps them. Each method's:"
     yield ""
     for method, subject in MADE_OF.items():
         is_asked = subject in BROKEN["wavelength"] or subject in BROKEN["cells"]
