@@ -18,6 +18,7 @@ from gltf_iri.colour.quadrature import HALF_BANDWIDTH_PER_NM, colour_rule
 from gltf_iri.colour.sensitivity_table import END_NM, sensitivity_table
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import MissingCapabilityError, UsageError
+from gltf_iri.evaluation.bloch import bloch_table
 from gltf_iri.evaluation.landmarks import cumulative_table
 from gltf_iri.planning.method import ParameterValue
 
@@ -99,6 +100,7 @@ OPTICS_TABLES: Final[Mapping[str, TableFill]] = MappingProxyType(
         "spectral_rule": _spectral_rule,
         "film_sensitivity": _film_sensitivity,
         "cumulative_colour": cumulative_table,
+        "bloch_weights": bloch_table,
     }
 )
 
