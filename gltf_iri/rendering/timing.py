@@ -6,6 +6,7 @@ textures. The same shader with the function left out is the baseline, which is t
 
 from __future__ import annotations
 
+import math
 import statistics
 import time
 from collections.abc import Mapping, Sequence
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 __all__ = ["TwinTimes", "time_twins"]
 
 _SIDE: Final = 1024
+_SHORTEST_S: Final = 0.02  # shorter draws are repeated, that what else runs weighs less
 _ARGUMENTS: Final = "timed_arguments"
 
 
@@ -58,7 +60,7 @@ def time_twins(
 
     Rows follow each other from pixel to pixel, again from the first after the last: drawn at random they are
     the worst that a picture can ask for, whose neighbouring pixels are alike and leave a loop together.
-    A round draws every method once; each number is the median over the rounds, less the baseline's.
+    A round draws every method in turn; each number is the median over the rounds, less the baseline's.
     A context draws with as many threads as it was made for: pin the process to one core before making it.
 
     methods : such as ("khr", "fourier") or ("bloch", "landmarks-sub"); each needs a GLSL twin.
@@ -76,7 +78,7 @@ def time_twins(
         context.disable(context.DEPTH_TEST | context.CULL_FACE | context.BLEND)
         framebuffer.use()
         for draw in draws:
-            draw.seconds()  # the driver compiles when a program first draws
+            draw.warm_up()
         measured = [[draw.seconds() for draw in draws] for _ in range(rounds)]
     finally:
         for draw in draws:
@@ -99,15 +101,22 @@ class _TimedDraw:
         fragment = assemble_text(_fragment(twin, is_baseline=is_baseline), f"timing of {twin.function}")
         self._program = build_program(context, assemble("pass/fullscreen.vert"), fragment)
         self._triangle = context.vertex_array(self._program, [])
+        self._repeats = 1
+
+    def warm_up(self) -> None:
+        """Have the driver compile, as it does when a program first draws, and see how long a draw takes."""
+        self.seconds()
+        self._repeats = max(1, math.ceil(_SHORTEST_S / self.seconds()))
 
     def seconds(self) -> float:
         """Return how long one draw takes, from an idle renderer to an idle renderer."""
         bind(self._program, {}, self._textures)
         self._context.finish()
         started = time.perf_counter()
-        self._triangle.render(vertices=3)
-        self._context.finish()
-        return time.perf_counter() - started
+        for _ in range(self._repeats):
+            self._triangle.render(vertices=3)
+            self._context.finish()  # else a renderer may drop a draw that the next one covers
+        return (time.perf_counter() - started) / self._repeats
 
     def release(self) -> None:
         self._triangle.release()
