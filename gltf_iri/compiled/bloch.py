@@ -1,7 +1,7 @@
 """Compiled twin of gltf_iri/optics/bloch.py and of the sums in gltf_iri/evaluation/bloch.py.
 
 Many mirrors stand side by side for each wavenumber, so that all but the search for signs runs in vector
-instructions; the gaps found are gathered and treated side by side as well.
+instructions; compiled/bloch_gaps.py treats the gaps found.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from gltf_iri.compiled.bloch_gaps import GAPS, add_gaps, add_thick_gaps, bit_count, note_gap
 from gltf_iri.compiled.loops import inline, loop
 from gltf_iri.compiled.sincos import sincos_turns
 
@@ -18,12 +19,10 @@ __all__ = ["bloch_colours"]
 # Scratch is laid out by rows of fixed length: the compiler then sees that they do not overlap. That for so
 # many mirrors stays in a core's first cache.
 LANES = 128
-GAPS = 1024  # treated at once
 
 _FADED = 1e8  # as in optics/bloch.py
 _FADE_MAX = 20.0
 _NOTHING = 1e-72
-_GAP_STEPS = 16.0  # as in colour/wavenumber_rule.py
 
 
 @inline
@@ -107,17 +106,6 @@ def _angles(count: int, cells: Any, films: Any, work: Any, signs: Any) -> None:
             signs[p * LANES + i] = films[10 * LANES + i] + kappa * films[11 * LANES + i]
 
 
-@loop
-def _bits(values: Any, count: int) -> int:
-    """Return how many bits the largest of the first `count` values has."""
-    most, bits = 0, 0
-    for i in range(count):
-        most = max(most, values[i])
-    while most >> bits:
-        bits += 1
-    return bits
-
-
 @inline
 def _bit_of_power(
     exponent: int, bit: int, base_r: float, base_i: float, z_r: float, z_i: float
@@ -186,118 +174,6 @@ def _add_samples(count: int, weights: Any, cells: Any, work: Any, z: Any, rgb: A
 
 
 @loop
-def _note(
-    at: int,
-    row: int,
-    side: int,
-    start: float,
-    low: float,
-    high: float,
-    scan: float,
-    paths: Any,
-    constants: Any,
-    gaps: Any,
-) -> None:
-    """Write gap `at` of `gaps`: its scan's start, its secant's place and its cell's constants."""
-    gaps[at], gaps[GAPS + at], gaps[9 * GAPS + at] = start, scan * low / (low - high), scan
-    gaps[2 * GAPS + at], gaps[3 * GAPS + at] = paths[0, row], paths[1, row]
-    for j in range(5):  # ½Ω, Z, r, 1 − r², κ
-        gaps[(4 + j) * GAPS + at] = constants[j, side, row]
-
-
-@loop
-def _find_poles(count: int, first: float, step: float, exponents: Any, gaps: Any) -> None:
-    """From scans' starts (row 0) and secants' places (row 1) find the poles: places and strengths.
-
-    Both in steps of the grid, into rows 0 and 1; the scan's length is in row 9.
-    """
-    for i in range(count):
-        start, place, path_1, path_2 = gaps[i], gaps[GAPS + i], gaps[2 * GAPS + i], gaps[3 * GAPS + i]
-        kappa, host_t = gaps[8 * GAPS + i], gaps[7 * GAPS + i]
-        turn_1, turn_2 = 2.0 * np.pi * step * path_1, 2.0 * np.pi * step * path_2
-        slope_cosines, slope_sines = turn_1 + kappa * turn_2, turn_2 + kappa * turn_1
-        at = first + step * (start + place)
-        sin_1, cos_1 = sincos_turns(path_1 * at)
-        sin_2, cos_2 = sincos_turns(path_2 * at)
-        value = sin_1 * cos_2 + kappa * (cos_1 * sin_2)
-        slope = slope_cosines * (cos_1 * cos_2) - slope_sines * (sin_1 * sin_2)
-        place = min(max(place - value / slope, 0.0), gaps[9 * GAPS + i])
-        at = first + step * (start + place)
-        sin_1, cos_1 = sincos_turns(path_1 * at)
-        sin_2, cos_2 = sincos_turns(path_2 * at)
-        slope = slope_cosines * (cos_1 * cos_2) - slope_sines * (sin_1 * sin_2)
-        off, tilt = gaps[5 * GAPS + i] * sin_2, gaps[6 * GAPS + i] * sin_1
-        sinh = abs(off) * np.sqrt(host_t + tilt * tilt)
-        is_low = cos_1 * cos_2 - gaps[4 * GAPS + i] * (sin_1 * sin_2) < 0.0
-        gaps[i], gaps[GAPS + i] = start + place, slope
-        gaps[2 * GAPS + i], gaps[3 * GAPS + i] = 1.0 / (np.sqrt(1.0 + sinh * sinh) + sinh), 1.0
-        gaps[4 * GAPS + i], gaps[5 * GAPS + i] = -sinh if is_low else sinh, tilt * off
-        gaps[6 * GAPS + i] = tilt * tilt
-    for bit in range(_bits(exponents, count)):
-        for i in range(count):
-            base, z = gaps[2 * GAPS + i], gaps[3 * GAPS + i]
-            gaps[3 * GAPS + i] = z * base if (exponents[i] >> bit) & 1 == 1 else z
-            gaps[2 * GAPS + i] = base * base
-    for i in range(count):
-        z, host_t = gaps[3 * GAPS + i], gaps[7 * GAPS + i]
-        tau = (1.0 - z) / (1.0 + z)
-        sech_squared = 4.0 * z / ((1.0 + z) * (1.0 + z))
-        signed = gaps[4 * GAPS + i] + gaps[5 * GAPS + i] * tau
-        unsloped = host_t * host_t * tau * signed / (host_t + gaps[6 * GAPS + i] * sech_squared)
-        gaps[GAPS + i] = unsloped / gaps[GAPS + i]
-
-
-@loop
-def _add_gaps(
-    count: int, grid: Any, rows: Any, exponents: Any, gaps: Any, gap_weights: Any, rgb: Any
-) -> None:
-    """Add each gap, halved for its polarisation, to its mirror's row of rgb (n, 3)."""
-    _find_poles(count, grid[0], grid[1], exponents, gaps)
-    last = gap_weights.shape[0] - 2
-    for i in range(count):
-        place = _GAP_STEPS * gaps[i]
-        entry = min(int(place), last)
-        share, half = place - entry, 0.5 * gaps[GAPS + i]
-        for c in range(3):
-            weight = (1.0 - share) * gap_weights[entry, c] + share * gap_weights[entry + 1, c]
-            rgb[rows[i], c] += half * weight
-
-
-@loop
-def _add_thick_gaps(
-    row: int,
-    scans: int,
-    samples: int,
-    paths: Any,
-    constants: Any,
-    number: int,
-    grid: Any,
-    rows: Any,
-    exponents: Any,
-    gaps: Any,
-    gap_weights: Any,
-    rgb: Any,
-) -> None:
-    """Look for the gaps of one mirror by `scans` steps to one of the grid, and add them."""
-    rows[:], exponents[:] = row, 2 * number
-    for p in range(2):
-        low, found = 0.0, 0
-        for j in range((samples - 1) * scans + 1):
-            at = grid[0] + grid[1] * (j / scans)
-            sin_1, cos_1 = sincos_turns(paths[0, row] * at)
-            sin_2, cos_2 = sincos_turns(paths[1, row] * at)
-            high = sin_1 * cos_2 + constants[4, p, row] * (cos_1 * sin_2)
-            if j > 0 and (low < 0.0) != (high < 0.0):
-                _note(found, row, p, (j - 1) / scans, low, high, 1.0 / scans, paths, constants, gaps)
-                found += 1
-                if found == GAPS:
-                    _add_gaps(found, grid, rows, exponents, gaps, gap_weights, rgb)
-                    found = 0
-            low = high
-        _add_gaps(found, grid, rows, exponents, gaps, gap_weights, rgb)
-
-
-@loop
 def _add_samples_of(
     begin: int,
     lanes: int,
@@ -333,7 +209,7 @@ def _add_samples_of(
             0.5 * (grown_2 + 1.0 / grown_2),
             0.5 * (grown_2 - 1.0 / grown_2),
         )
-    bits = _bits(exponents, lanes)
+    bits = bit_count(exponents, lanes)
     for k in range(weights.shape[0]):
         _films(lanes, first + step * k, shared, films)
         _angles(lanes, constants, films, work, signs[k])
@@ -373,16 +249,16 @@ def bloch_colours(
             row = begin + lane
             if scans[row] > 1:
                 continue
-            _note(found, row, p, float(k), signs[k, i], signs[k + 1, i], 1.0, paths, cells, gaps)
+            note_gap(found, row, p, float(k), signs[k, i], signs[k + 1, i], 1.0, paths, cells, gaps)
             rows[found], exponents[found] = row, 2 * numbers[row]
             found += 1
             if found == GAPS:
-                _add_gaps(found, grid, rows, exponents, gaps, gap_weights, rgb)
+                add_gaps(found, grid, rows, exponents, gaps, gap_weights, rgb)
                 found = 0
-        _add_gaps(found, grid, rows, exponents, gaps, gap_weights, rgb)
+        add_gaps(found, grid, rows, exponents, gaps, gap_weights, rgb)
         for row in range(begin, begin + lanes):
             if scans[row] > 1:
-                _add_thick_gaps(
+                add_thick_gaps(
                     row,
                     scans[row],
                     samples,
