@@ -154,9 +154,10 @@ class _Films:
             sign = None if self._sign is None else part(self._sign, piece, axes)[0]
             a, b = (part(each, piece, axes) for each in (self._by_angle, self._by_wavelength))
             _write_tangent(a, b, sign, *work[rows:])
-            s, p = _entering(work[:rows], work[rows], sign, work[rows + 1])
+            s, p, both = _entering(work[:rows], work[rows], sign, work[rows + 1])
             for answer, half, other in zip(pieces, (s, p), (p if mean else s, p), strict=False):
                 half += other
+                half *= both
                 np.subtract(1.0, half, out=answer)
                 np.maximum(
                     answer, 0.0, out=answer
@@ -229,8 +230,8 @@ def _write_tangent(a: Float64, b: Float64, sign: Float64 | None, t: Float64, *sp
 
 def _entering(
     coefficients: Float64, t: Float64, sign: Float64 | None, square: Float64
-) -> tuple[Float64, Float64]:
-    """Return half of what enters the base, in s and in p, for the tangent t; overwrites its arguments."""
+) -> tuple[Float64, Float64, Float64]:
+    """Return half of what enters the base in s and p over 1 + t², and 1 + t²; overwrites its arguments."""
     np.multiply(t, t, out=square)
     half = len(coefficients) // 2
     s, p = coefficients[:half], coefficients[half:]
@@ -246,9 +247,7 @@ def _entering(
     if sign is not None:
         square *= sign
     square += 1.0
-    for entering in (s[0], p[0]):
-        entering *= square
-    return s[0], p[0]
+    return s[0], p[0], square
 
 
 def _times(number: tuple[Any, ...], factor: Any) -> tuple[Any, ...]:
