@@ -133,7 +133,8 @@ class _Films:
         digits: tuple[Any, ...] = (q2,)
         most = [np.max(a, initial=0.0) for a in (thickness, n1, n2)]
         half_turns = 2.0 * most[0] * max(most[1:]) / np.min(wavelength, initial=np.inf)
-        if half_turns > _MANY_HALF_TURNS or _is_sharp(*s) or _is_sharp(*p):
+        self._is_sharp = _is_sharp(*s) or _is_sharp(*p)
+        if half_turns > _MANY_HALF_TURNS or self._is_sharp:
             exact, low = normal_index_squared_exact(n2, n1, c1)
             digits = square_root(np.maximum(sign * exact, _GRAZING**2), sign * low)
         self._by_angle, self._by_wavelength = _phase_factors(digits, 2.0 * thickness, wavelength)
@@ -153,7 +154,7 @@ class _Films:
             np.copyto(work[:rows], part(self._coefficients, piece, axes))
             sign = None if self._sign is None else part(self._sign, piece, axes)[0]
             a, b = (part(each, piece, axes) for each in (self._by_angle, self._by_wavelength))
-            _write_tangent(a, b, sign, *work[rows:])
+            _write_tangent(a, b, sign, self._is_sharp, *work[rows:])
             s, p, both = _entering(work[:rows], work[rows], sign, work[rows + 1])
             for answer, half, other in zip(pieces, (s, p), (p if mean else s, p), strict=False):
                 half += other
@@ -203,7 +204,9 @@ def _phase_factors(q2: tuple[Any, ...], twice_nm: Float64, wavelength: Float64) 
     return _table(np.pi * q2[0]), _table(per_nm[0])
 
 
-def _write_tangent(a: Float64, b: Float64, sign: Float64 | None, t: Float64, *spare: Float64) -> None:
+def _write_tangent(
+    a: Float64, b: Float64, sign: Float64 | None, is_sharp: bool, t: Float64, *spare: Float64
+) -> None:
     """Write tan β into t, tanh where `sign` is negative, for one factor each or three: `_phase_factors`."""
     rest, whole = spare
     np.multiply(a[0], b[0], out=t)
@@ -214,18 +217,28 @@ def _write_tangent(a: Float64, b: Float64, sign: Float64 | None, t: Float64, *sp
         np.multiply(a[0], b[1], out=rest)
         rest += np.multiply(a[1], b[2], out=whole)
         fading = None if sign is None else np.tanh(np.pi * (t + rest))
-        # Whole half turns come off exactly. From an eighth of a turn on the cotangent of what is left to a
-        # quarter, which as a difference is exact too, keeps the digits next to the pole.
         t -= np.rint(t, out=whole)
-        is_steep = np.abs(t) > 0.25
-        np.copyto(t, np.copysign(0.5, t) - t, where=is_steep)
-        np.negative(rest, out=rest, where=is_steep)
-        t += rest
-        np.copyto(t, _POLE, where=is_steep & (t == 0.0))
-        np.tan(np.multiply(t, np.pi, out=t), out=t)
-        np.divide(1.0, t, out=t, where=is_steep)
+        if is_sharp:
+            _write_tangent_to_its_pole(t, rest)
+        else:
+            t += rest
+            np.tan(np.multiply(t, np.pi, out=t), out=t)
     if sign is not None and fading is not None:
         np.copyto(t, fading, where=sign < 0.0)
+
+
+def _write_tangent_to_its_pole(t: Float64, rest: Float64) -> None:
+    """Write tan π(t + rest) into t, |t| ≤ ½, with all digits next to the pole; overwrites its arguments.
+
+    From a quarter on, the cotangent of what is left to a half, which as a difference is exact.
+    """
+    is_steep = np.abs(t) > 0.25
+    np.copyto(t, np.copysign(0.5, t) - t, where=is_steep)
+    np.negative(rest, out=rest, where=is_steep)
+    t += rest
+    np.copyto(t, _POLE, where=is_steep & (t == 0.0))
+    np.tan(np.multiply(t, np.pi, out=t), out=t)
+    np.divide(1.0, t, out=t, where=is_steep)
 
 
 def _entering(
