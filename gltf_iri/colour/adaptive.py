@@ -34,6 +34,7 @@ _PANEL_TOLERANCE: Final = COLOUR_CONVERGENCE / 2048.0
 
 _PANELS_AT_ONCE: Final = 1 << 13  # bounds the temporaries of one evaluation
 _OPEN_PANELS: Final = 1 << 17  # rows are taken in groups that start with about as many panels
+_MOST_FIRST_PANELS: Final = 1 << 23  # a metre of path difference: a minute or two
 _MOST_PANELS: Final = 1 << 20  # noise leaves every half open; a spectrum with features leaves ever fewer
 _MAX_HALVINGS: Final = 40  # a panel of 1e-12 nm: narrower than any feature that float64 can place
 
@@ -49,7 +50,9 @@ def integrate_adaptive(reflectance: Reflectance, rows: Rows, *, white: White, op
         edges_nm = _first_edges(float(opd_nm[order[0]]))
         group = order[: max(1, _OPEN_PANELS // len(edges_nm))]
         edges_nm = _first_edges(float(opd_nm[group[-1]]))
-        result[group] = _integrate_group(reflectance, rows[group], edges_nm, white)
+        for start in range(0, len(edges_nm) - 1, _OPEN_PANELS):
+            part = edges_nm[start : start + _OPEN_PANELS + 1]
+            result[group] += _integrate_group(reflectance, rows[group], part, white)
         order = order[len(group) :]
     return result
 
@@ -102,7 +105,7 @@ def _first_edges(opd_nm: float) -> Float64:
     knots = observer_table()[:, 0]
     phase_rad = 2.0 * np.pi * opd_nm * (1.0 / knots[:-1] - 1.0 / knots[1:])
     wanted = np.maximum(1.0, np.ceil(phase_rad / _PHASE_PER_PANEL_RAD))
-    if wanted.sum() > _MOST_PANELS:
+    if wanted.sum() > _MOST_FIRST_PANELS:
         raise UsageError(
             f"A path difference of {opd_nm:.3g} nm has too many fringes to be summed: make the film thinner."
         )
