@@ -94,19 +94,23 @@ def _powers(
     layers = list(cell)
     with mp.workdps(_WORKING_DIGITS):
         c, n_1 = mp.mpf(cosine), mp.mpf(complex(outside).real)
-        transverse = n_1**2 * (1 - c**2)
         turn = 2 * mp.pi / mp.mpf(wavelength_nm)
 
+        def q_squared(n: Any) -> Any:
+            """Return n² − n₁² sin²θ₁; written so that a flat angle's cosine is not lost beside 1."""
+            return (n - n_1) * (n + n_1) + (n_1 * c) ** 2
+
         def admittance(n: Any, is_p: bool) -> Any:
-            root = mp.sqrt(n**2 - transverse)
+            root = mp.sqrt(q_squared(n))
             q = mp.mpc(abs(root.real), abs(root.imag))
             return q / n**2 if is_p else q
 
         shares = []
         for is_p in (False, True):
             whole: _Matrix = ((mp.mpf(1), mp.mpf(0)), (mp.mpf(0), mp.mpf(1)))
-            for n, thickness_nm in layers:
-                whole = _times(whole, _layer(mp, mp.mpmathify(n), turn * thickness_nm, transverse, is_p))
+            for index, thickness_nm in layers:
+                n = mp.mpmathify(index)
+                whole = _times(whole, _layer(mp, n, mp.sqrt(q_squared(n)), turn * thickness_nm, is_p))
             whole = _power(whole, repeats)
             y_1 = n_1 * c / (n_1**2 if is_p else 1)
             y_exit = admittance(mp.mpmathify(exit_index), is_p)
@@ -122,8 +126,7 @@ def _powers(
     return Powers(R_s, R_p, T_s, T_p)
 
 
-def _layer(mp: Any, n: Any, turn_by_thickness: Any, transverse: Any, is_p: bool) -> _Matrix:
-    q = mp.sqrt(n**2 - transverse)
+def _layer(mp: Any, n: Any, q: Any, turn_by_thickness: Any, is_p: bool) -> _Matrix:
     phase = turn_by_thickness * q
     scale = n**2 if is_p else 1
     sine_over_q = turn_by_thickness if q == 0 else mp.sin(phase) / q
