@@ -18,6 +18,7 @@ mirrors whose bound asks for more than MAX_ORDERS terms.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, fields, replace
 from functools import cache
 from typing import Any, Final
 
@@ -39,6 +40,7 @@ MAX_ORDERS: Final = 64
 THIN_OPD_NM: Final = 20.0
 
 _ROWS_AT_ONCE: Final = 2048  # keeps a block's temporaries in a core's cache
+_FIRST_ORDERS: Final = 3  # most films want no more
 
 
 def evaluate_fourier(
@@ -68,53 +70,87 @@ def integrated_band(band: FilmBand, white: White) -> Float64:
     return evaluate_spectral(film, white).rgb
 
 
+@dataclass(frozen=True, slots=True)
+class _Unfinished:
+    """Films (r,) whose next term is still to be added; (2, r) for s and p."""
+
+    row: NDArray[np.intp]
+    step: Float64  # mD and D in cells of the table
+    place: Float64
+    ratio: NDArray[Any]
+    size: Float64  # |z|
+    power: NDArray[Any]  # G z^m
+    left: Float64  # H |z|^m/τ
+
+    def at(self, rows: NDArray[np.intp]) -> _Unfinished:
+        return _Unfinished(*(getattr(self, each.name).take(rows, axis=-1) for each in fields(self)))
+
+
 def _by_blocks(band: FilmBand, white: White, tolerance: float) -> tuple[Float64, NDArray[np.bool_]]:
     """Return the colours (r, 3) of a band's films and which of them are still open (r,)."""
     count = len(band.cos_theta_1)
     rgb, is_open = np.zeros((count, 3)), np.zeros(count, dtype=np.bool_)
+    rest = []
     for start in range(0, count, _ROWS_AT_ONCE):
-        rows = slice(start, start + _ROWS_AT_ONCE)
-        rgb[rows], is_open[rows] = _sum_series(band.rows(rows), white, tolerance)
+        rows = np.arange(start, min(start + _ROWS_AT_ONCE, count))
+        rgb[rows], is_open[rows], unfinished = _prepare(band.rows(rows), rows, tolerance)
+        rest.append(_add_orders(unfinished, _FIRST_ORDERS, rgb, white))
+    if not rest:
+        return rgb, is_open
+    # The few films with many terms, of all blocks together: else each block would run to its own worst film.
+    parts = zip(*([getattr(part, each.name) for each in fields(part)] for part in rest), strict=True)
+    unfinished = _Unfinished(*(np.concatenate(part, axis=-1) for part in parts))
+    for start in range(0, len(unfinished.row), _ROWS_AT_ONCE):
+        block = unfinished.at(np.arange(start, min(start + _ROWS_AT_ONCE, len(unfinished.row))))
+        is_open[_add_orders(block, MAX_ORDERS - _FIRST_ORDERS, rgb, white).row] = True
     return rgb, is_open
 
 
-def _sum_series(band: FilmBand, white: White, tolerance: float) -> tuple[Float64, NDArray[np.bool_]]:
-    table = sensitivity_table(white)
+def _prepare(
+    band: FilmBand, rows: NDArray[np.intp], tolerance: float
+) -> tuple[Float64, NDArray[np.bool_], _Unfinished]:
+    """Return the means (r, 3) of all fringes, which films have no series, and the others' first term."""
     series = film_series(band.outside_ior, band.film_ior, band.base_index, band.cos_theta_1)
     step = 2.0 * band.thickness_nm * np.sqrt(np.maximum(series.q2_squared, 0.0)) / STEP_NM
     is_open = ~(series.q2_squared > 0.0) | ~(step > THIN_OPD_NM / STEP_NM)
-    is_complex = np.iscomplexobj(series.ratio)
     rgb = np.repeat((1.0 - (series.entering[0] + series.entering[1]))[:, None], 3, axis=-1)
+    size = np.abs(series.ratio)
+    power = 2.0 * series.entering * series.ratio
+    left = series.tail * size * (2.0 / tolerance)
+    films = _Unfinished(rows, step, step, series.ratio, size, power, left)
+    return rgb, is_open, films.at(np.flatnonzero(~is_open)) if is_open.any() else films
 
-    # Only what still counts is carried from order to order, so that cost follows need.
-    row = np.flatnonzero(~is_open)
-    z: NDArray[Any] = series.ratio[:, row]
-    step, size = step[row], np.abs(z)
-    place, power = step, 2.0 * series.entering[:, row] * z
-    left = series.tail[:, row] * size * (2.0 / tolerance)
-    for _ in range(MAX_ORDERS):
+
+def _add_orders(films: _Unfinished, orders: int, rgb: Float64, white: White) -> _Unfinished:
+    """Add up to so many further terms to `rgb`; return the films that are then not finished yet.
+
+    Only what still counts is carried from order to order, so that cost follows need.
+    """
+    table = sensitivity_table(white)
+    for _ in range(orders):
         # What lies beyond the table reads its end, where the bound is 0.
-        place = np.minimum(place, np.nextafter(CELLS, 0.0))
+        place = np.minimum(films.place, np.nextafter(CELLS, 0.0))
         cell = place.astype(np.intp)
-        t = place - cell
-        low, high = table.envelope[cell], table.envelope[cell + 1]
-        bound = (left[0] + left[1]) * (low + t * (high - low))
-        counts = bound > 1.0
-        if not counts.all():
-            row, step, place, cell, t, bound = (a[counts] for a in (row, step, place, cell, t, bound))
-            z, size, power, left = (a[:, counts] for a in (z, size, power, left))
-        if len(row) == 0:
-            return rgb, is_open
-        weight = (power[0] + power[1]) * np.minimum(1.0, bound - 1.0)
-        c = table.coefficients[cell]
-        rgb[row] -= weight.real[:, None] * _cubic(c[:, 0], t)
-        if is_complex:
-            rgb[row] += weight.imag[:, None] * _cubic(c[:, 1], t)
-        place = place + step
-        power = power * z
-        left = left * size
-    is_open[row] = True
-    return rgb, is_open
+        t: Float64 = place - cell
+        low, high = table.envelope.take(cell), table.envelope.take(cell + 1)
+        bound = (films.left[0] + films.left[1]) * (low + t * (high - low))
+        counts = np.flatnonzero(bound > 1.0)
+        if len(counts) < len(bound):
+            films, cell, t, bound = films.at(counts), cell[counts], t[counts], bound[counts]
+        if len(films.row) == 0:
+            return films
+        weight = (films.power[0] + films.power[1]) * np.minimum(1.0, bound - 1.0)
+        change = -weight.real[:, None] * _cubic(table.coefficients[cell, 0], t)
+        if np.iscomplexobj(weight):
+            change += weight.imag[:, None] * _cubic(table.coefficients[cell, 1], t)
+        rgb[films.row] += change
+        films = replace(
+            films,
+            place=films.place + films.step,
+            power=films.power * films.ratio,
+            left=films.left * films.size,
+        )
+    return films
 
 
 @cache
