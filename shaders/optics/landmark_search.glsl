@@ -26,8 +26,7 @@ float landmark_offset(float kappa, vec2 phase, float rho, int newton_steps) {
     float size = abs(tangent);
     float x = size <= 1.0 ? size / (1.0 + 0.28 * size * size) : 0.5 * PI - 1.0 / (size + 0.28 / size);
     x = tangent < 0.0 ? -x : x;
-    for (int i = 0; i < LANDMARK_NEWTON_MAX; ++i) {
-        if (i >= newton_steps) break;
+    for (int i = 0; i < newton_steps; ++i) {
         float sin_r = sin(rho * x);
         float cos_r = cos(rho * x);
         float value = sin(x) - kappa * (phase.x * cos_r + phase.y * sin_r);
@@ -52,38 +51,50 @@ float band_gap_function(float t, float rho, float r_squared) {
 }
 
 // Where the falling ±(1 − r²) cos KΛ passes `level`.
-float halve(float low, float high, float sign_of_mode, float level, float rho, float r_squared) {
-    for (int i = 0; i < LANDMARK_HALVINGS; ++i) {
+// A loop of no rounds, not a branch around it or a fixed number: software renderers walk both sides of branches.
+float halve(
+    float low, float high, float sign_of_mode, float level, float rho, float r_squared, int halvings) {
+    for (int i = 0; i < halvings; ++i) {
         float middle = 0.5 * (low + high);
-        if (sign_of_mode * band_gap_function(middle, rho, r_squared) > level) {
-            low = middle;
-        } else {
-            high = middle;
-        }
+        bool is_before = sign_of_mode * band_gap_function(middle, rho, r_squared) > level;
+        low = is_before ? middle : low;
+        high = is_before ? high : middle;
     }
     return 0.5 * (low + high);
 }
 
+// sin φ and cos φ of a band's start, Airy point and end, the same for s and p.
+struct BandPhases {
+    vec2 start;
+    vec2 airy;
+    vec2 end;
+};
+
+BandPhases band_phases(float m, float rho) {
+    vec2 middle = sincos_turns(0.25 * (rho * (2.0 * m + 1.0)));
+    vec2 airy = is_odd(m) ? vec2(middle.y, -middle.x) : vec2(-middle.y, middle.x);
+    return BandPhases(edge_phase(m, rho), airy, edge_phase(m + 1.0, rho));
+}
+
 // Start, Airy point and end of the pass band between the modes m and m + 1
-// Fourneau et al. 2024, §3.2.1; newton_steps = 0 halves as published
-vec3 landmark_band(float m, float rho, float r_squared, int newton_steps) {
-    float even = is_odd(m) ? -1.0 : 1.0;
-    if (newton_steps == 0) {
-        float middle = halve(m, m + 1.0, even, 0.0, rho, r_squared);
-        // No gap is at ω = 0, and none anywhere in a cell of equal media.
-        bool is_matched = r_squared == 0.0;
-        bool is_open = m > 0.0 && !is_matched;
-        float first = is_open ? halve(m, middle, even, 1.0 - r_squared, rho, r_squared) : m;
-        float last = is_matched ? m + 1.0 : halve(middle, m + 1.0, even, r_squared - 1.0, rho, r_squared);
-        return vec3(first, middle, last);
-    }
+// Fourneau et al. 2024, §3.2.1
+vec3 landmark_band(float m, float rho, float r_squared, BandPhases phases, int newton_steps) {
     float amplitude = sqrt(r_squared);
-    float start = m + landmark_offset(amplitude, edge_phase(m, rho), rho, newton_steps);
-    float end = m + 1.0 - landmark_offset(amplitude, edge_phase(m + 1.0, rho), -rho, newton_steps);
-    vec2 phase = sincos_turns(0.25 * (rho * (2.0 * m + 1.0)));
-    float offset = landmark_offset(r_squared, even * vec2(-phase.y, phase.x), rho, newton_steps);
-    float airy = clamp(m + 0.5 + 0.5 * offset, m, m + 1.0);
+    float start = m + landmark_offset(amplitude, phases.start, rho, newton_steps);
+    float end = m + 1.0 - landmark_offset(amplitude, phases.end, -rho, newton_steps);
+    float airy = clamp(m + 0.5 + 0.5 * landmark_offset(r_squared, phases.airy, rho, newton_steps), m, m + 1.0);
     return vec3(min(start, airy), airy, max(end, airy));
+}
+
+// The same by ten halvings between modes, as published; by none it is not to be used
+vec3 halved_band(float m, float rho, float r_squared, int halvings) {
+    float even = is_odd(m) ? -1.0 : 1.0;
+    float airy = halve(m, m + 1.0, even, 0.0, rho, r_squared, halvings);
+    float start = halve(m, airy, even, 1.0 - r_squared, rho, r_squared, halvings);
+    float end = halve(airy, m + 1.0, even, r_squared - 1.0, rho, r_squared, halvings);
+    // No gap is at ω = 0, and none anywhere in a cell of equal media.
+    bool is_matched = r_squared == 0.0;
+    return vec3(is_matched || m == 0.0 ? m : start, airy, is_matched ? m + 1.0 : end);
 }
 
 // Where the band's envelope is 0, or its Airy point where that lies in a gap

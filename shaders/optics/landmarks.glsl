@@ -26,43 +26,70 @@ vec4 interface_power(float n_a, float q_a, float n_b, float q_b, float tangentia
     return vec4(min(vec2(r_s * r_s, r_p * r_p), 1.0), t);
 }
 
-// What the boxes of one polarisation let through, weighed by the eye
-// Fourneau et al. 2024, Eq. 14-16; host_r and host_t: into n1, without interference
-vec3 landmark_transmittance(
-    float path_nm, float rho, float r_squared, float weight, float host_r, float host_t,
-    float subdivisions, int newton_steps) {
+// One polarisation of a mirror: r₁₂², w̃, and reflectance and transmittance from the host into n1.
+struct Polarisation {
+    float r_squared;
+    float weight;
+    float host_r;
+    float host_t;
+};
+
+// What a band's boxes let through, weighed by the eye; the interface to the host without interference
+// Fourneau et al. 2024, Eq. 14-16; a landmark at t lies at slope · t + shift steps of the table
+vec3 band_transmittance(vec3 band, float rho, Polarisation beam, int parts, float slope, float shift) {
     float last_step = float(cumulative_steps());
-    float steps_nm = last_step / (1.0 / CUMULATIVE_SHORTEST_NM - 1.0 / CUMULATIVE_LONGEST_NM);
+    float zero = zero_point(band, rho);
+    vec4 ends = vec4(band.x, min(band.y, zero), max(band.y, zero), band.z);
+    vec3 total = vec3(0.0);
+    vec3 below = vec3(0.0);
+    bool has_below = false;
+    for (int piece = 0; piece < 3; ++piece) {
+        float low = ends[piece];
+        float width = (ends[piece + 1] - low) / float(parts);
+        if (width <= 0.0) continue;
+        float at_low = slope * low + shift;
+        float at_step = slope * width;
+        if (at_low >= last_step || at_low + at_step * float(parts) <= 0.0) continue;
+        below = has_below ? below : cumulative_at(at_low);
+        has_below = true;
+        for (int part = 0; part < parts; ++part) {
+            vec3 above = cumulative_at(at_low + at_step * float(part + 1));
+            float envelope = envelope_transmittance(low + width * (float(part) + 0.5), rho, beam.r_squared);
+            float through = 1.0 - beam.weight * (1.0 - envelope);
+            through *= beam.host_t / max(beam.host_t + beam.host_r * through, LANDMARK_TINY);
+            total += through * (above - below);
+            below = above;
+        }
+    }
+    return total;
+}
+
+// The sum over the visible bands of s and p
+vec3 landmark_transmittance(
+    float path_nm, float rho, Polarisation s, Polarisation p, float subdivisions, int newton_steps) {
+    float steps_nm =
+        float(cumulative_steps()) / (1.0 / CUMULATIVE_SHORTEST_NM - 1.0 / CUMULATIVE_LONGEST_NM);
     float first = floor(2.0 * path_nm / CUMULATIVE_LONGEST_NM);
     float last = floor(2.0 * path_nm / CUMULATIVE_SHORTEST_NM);
     // Thicker cells show more gaps than are searched: each band then stands for the `stride` from it on.
     float stride = 1.0 + floor((last - first) / float(LANDMARK_MODES_MAX));
     float scale = 0.5 * steps_nm / path_nm;
+    int halvings = newton_steps > 0 ? 0 : LANDMARK_HALVINGS;
     vec3 total = vec3(0.0);
     for (int i = 0; i <= LANDMARK_MODES_MAX; ++i) {
         float m = first + stride * float(i);
         if (m > last) break;
-        vec3 band = landmark_band(m, rho, r_squared, newton_steps);
-        float zero = zero_point(band, rho);
-        vec4 ends = vec4(band.x, min(band.y, zero), max(band.y, zero), band.z);
-        float parts = max(1.0, subdivisions - m);
+        BandPhases phases = band_phases(m, rho);
+        vec3 band_s = landmark_band(m, rho, s.r_squared, phases, newton_steps);
+        vec3 band_p = landmark_band(m, rho, p.r_squared, phases, newton_steps);
+        vec3 halved_s = halved_band(m, rho, s.r_squared, halvings);
+        vec3 halved_p = halved_band(m, rho, p.r_squared, halvings);
+        band_s = newton_steps > 0 ? band_s : halved_s;
+        band_p = newton_steps > 0 ? band_p : halved_p;
+        int parts = int(clamp(subdivisions - m, 1.0, LANDMARK_SUBDIVISIONS_MAX));
         float shift = (m - stride * m) * scale - steps_nm / CUMULATIVE_LONGEST_NM;
-        for (int piece = 0; piece < 3; ++piece) {
-            float low = ends[piece];
-            float width = (ends[piece + 1] - low) / parts;
-            float at_low = stride * scale * low + shift;
-            float at_step = stride * scale * width;
-            if (width <= 0.0 || at_low >= last_step || at_low + at_step * parts <= 0.0) continue;
-            vec3 below = cumulative_at(at_low);
-            for (float part = 0.0; part < LANDMARK_SUBDIVISIONS_MAX; ++part) {
-                if (part >= parts) break;
-                vec3 above = cumulative_at(at_low + at_step * (part + 1.0));
-                float envelope = envelope_transmittance(low + width * (part + 0.5), rho, r_squared);
-                float through = 1.0 - weight * (1.0 - envelope);
-                total += host_t * through / max(host_t + host_r * through, LANDMARK_TINY) * (above - below);
-                below = above;
-            }
-        }
+        total += band_transmittance(band_s, rho, s, parts, stride * scale, shift);
+        total += band_transmittance(band_p, rho, p, parts, stride * scale, shift);
     }
     return total;
 }
@@ -91,11 +118,8 @@ vec3 bragg_reflectance_landmarks(
     float at_normal = 0.735 * sq((n1 - n2) / (n1 + n2)) + 0.532;
     float weight = at_normal + (1.0 - at_normal) * sq(1.0 - q1 / n1);
 
-    float subdivisions = cumulative_parameter(0);
-    int newton_steps = int(cumulative_parameter(1) + 0.5);
-    vec3 through_s = landmark_transmittance(
-        path_nm, rho, inside.x, weight, outside.x, outside.z, subdivisions, newton_steps);
-    vec3 through_p = landmark_transmittance(
-        path_nm, rho, inside.y, weight, outside.y, outside.w, subdivisions, newton_steps);
-    return 1.0 - 0.5 * (through_s + through_p);
+    Polarisation s = Polarisation(inside.x, weight, outside.x, outside.z);
+    Polarisation p = Polarisation(inside.y, weight, outside.y, outside.w);
+    int newton_steps = min(int(cumulative_parameter(1) + 0.5), LANDMARK_NEWTON_MAX);
+    return 1.0 - 0.5 * landmark_transmittance(path_nm, rho, s, p, cumulative_parameter(0), newton_steps);
 }
