@@ -63,9 +63,11 @@ MIRRORS = {
 def test_on_the_real_axis_it_is_what_the_mirror_reflects(name: str) -> None:
     mirror = MIRRORS[name]
     cells = np.broadcast_to(mirror.cells, mirror.shape)
-    nearly = shifted_reflectance(cell_of(mirror), cells, GRID, 1e-13)  # 1/nm: 10⁻⁹ of the grid's step
-    # Near a pole rounding grows as the height falls, and the height's own effect as it rises.
-    assert np.abs(nearly.real - (1.0 - transmittance(mirror, GRID))).max() <= 1e-5
+    height = 1e-13  # 1/nm, 10⁻⁹ of the grid's step
+    nearly = shifted_reflectance(cell_of(mirror), cells, GRID, height)
+    # A pole iρ/δ nearby adds ρ/δ to Im Q, and ρ a/δ² = a (Im Q)²/ρ to Re Q; ρ is some 1e-4 / nm.
+    allowed = 1e-6 + 1e5 * height * nearly.imag**2
+    assert np.all(np.abs(nearly.real - (1.0 - transmittance(mirror, GRID))) <= allowed)
 
 
 @pytest.mark.parametrize("name", MIRRORS)
