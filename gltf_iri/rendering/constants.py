@@ -72,7 +72,7 @@ def film_constants_glsl() -> str:
             _scalar("SENSITIVITY_FINE_PER_NM", optics_tables.SENSITIVITY_FINE_PER_NM),
             _scalar("SENSITIVITY_FINE_END_NM", optics_tables.SENSITIVITY_FINE_END_NM),
             _scalar("SENSITIVITY_LAST", optics_tables.SENSITIVITY_LAST),
-            f"const int SENSITIVITY_ROW = {optics_tables.SENSITIVITY_ROW};",
+            f"const int SENSITIVITY_ROW_BITS = {optics_tables.SENSITIVITY_ROW_BITS};",
             f"const int SENSITIVITY_ROWS = {optics_tables.SENSITIVITY_ROWS};",
             f"const int SPECTRAL_SMOOTH_COUNT = {optics_tables.SPECTRAL_SMOOTH_DEGREE + 1};",
         ],

@@ -31,7 +31,7 @@ const float THIN_OPD_NM = 100.0;
 const float SENSITIVITY_FINE_PER_NM = 4.0;
 const float SENSITIVITY_FINE_END_NM = 4096.0;
 const float SENSITIVITY_LAST = 76288.0;
-const int SENSITIVITY_ROW = 1024;
+const int SENSITIVITY_ROW_BITS = 10;
 const int SENSITIVITY_ROWS = 75;
 const int SPECTRAL_SMOOTH_COUNT = 33;
 

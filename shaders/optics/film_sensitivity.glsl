@@ -14,10 +14,12 @@ struct SensitivityPlace {
 
 SensitivityPlace sensitivity_place(float opd_nm) {
     // Finer as far as SENSITIVITY_FINE_END_NM, where the sensitivities are great; then in whole nanometres.
-    float at = min(SENSITIVITY_FINE_PER_NM * opd_nm, opd_nm + (SENSITIVITY_FINE_PER_NM - 1.0) * SENSITIVITY_FINE_END_NM);
+    float at = min(SENSITIVITY_FINE_PER_NM * opd_nm,
+                   opd_nm + (SENSITIVITY_FINE_PER_NM - 1.0) * SENSITIVITY_FINE_END_NM);
     float first = min(floor(at), SENSITIVITY_LAST);
     int i = int(first);
-    return SensitivityPlace(ivec2(i & (SENSITIVITY_ROW - 1), i / SENSITIVITY_ROW), min(at - first, 1.0));
+    ivec2 texel = ivec2(i & ((1 << SENSITIVITY_ROW_BITS) - 1), i >> SENSITIVITY_ROW_BITS);
+    return SensitivityPlace(texel, min(at - first, 1.0));
 }
 
 // Re Ŝ of the three channels, and a bound of |Ŝ| at and beyond the place, over half of the tolerance.
