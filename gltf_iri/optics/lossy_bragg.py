@@ -26,13 +26,23 @@ def lossy_powers(
     host_ior: Any, n1: Any, n2: Any, d1_nm: Any, d2_nm: Any, cells: Any, wavelength_nm: Any, cos_theta_h: Any
 ) -> tuple[Float64, Float64, Float64, Float64, Float64, Float64]:
     """Return R_s, R_p, T_s, T_p, A_s, A_p; arrays broadcast (Yeh 1988; Fourneau et al. 2024, Appendix D)."""
+    with np.errstate(invalid="ignore"):  # a NaN argument: complex quotients warn of it, real ones do not
+        return _powers(host_ior, n1, n2, d1_nm, d2_nm, cells, wavelength_nm, cos_theta_h)
+
+
+def _powers(
+    host_ior: Any, n1: Any, n2: Any, d1_nm: Any, d2_nm: Any, cells: Any, wavelength_nm: Any, cos_theta_h: Any
+) -> tuple[Float64, Float64, Float64, Float64, Float64, Float64]:
     n1, n2 = (np.asarray(n, dtype=np.complex128) for n in (n1, n2))
     q_h = np.maximum(np.asarray(host_ior * cos_theta_h), NO_NORMAL_INDEX)
     q_1, q_2 = (_index_along_normal(n, host_ior, cos_theta_h) for n in (n1, n2))
-    half_1 = _half_phase(q_1 * d1_nm / wavelength_nm)
-    half_2 = _half_phase(q_2 * d2_nm / wavelength_nm)
-    s = _share(q_h, q_1, q_2, half_1, half_2, cells)
-    p = _share(q_h / host_ior**2, q_1 / n1**2, q_2 / n2**2, half_1, half_2, cells)
+    halves = _HalfPhase(q_1, d1_nm, wavelength_nm), _HalfPhase(q_2, d2_nm, wavelength_nm)
+    # Y₂² − Y₁² as products, without the cancellation of that difference (bragg_cell.film_optics).
+    tangential = host_ior * host_ior * ((1.0 - cos_theta_h) * (1.0 + cos_theta_h))
+    imbalance = 0.5 * (n2 - n1) * (n2 + n1) / (q_1 * q_2)
+    brewster = tangential * ((n1 * n1 + n2 * n2) / (n1 * n1 * n2 * n2)) - 1.0
+    s = _share(q_h, q_1, q_2, imbalance, *halves, cells)
+    p = _share(q_h / host_ior**2, q_1 / n1**2, q_2 / n2**2, imbalance * brewster, *halves, cells)
     return s[0], p[0], s[1], p[1], s[2], p[2]
 
 
@@ -44,9 +54,10 @@ def _index_along_normal(index: Complex128, host_ior: Any, cos_theta_h: Any) -> C
 class _HalfPhase:
     """cos ½φ and sin ½φ times e^(−½Im φ), and e^(iφ) times e^(−Im φ)."""
 
-    def __init__(self, half_turns: Complex128) -> None:
-        real = np.pi * (half_turns.real - np.rint(half_turns.real))  # the sign this drops enters squared
-        fading = np.pi * half_turns.imag
+    def __init__(self, q: Complex128, thickness_nm: Any, wavelength_nm: Any) -> None:
+        half_turns = q.real * thickness_nm / wavelength_nm
+        real = np.pi * (half_turns - np.rint(half_turns))  # the sign that this drops enters squared
+        fading = np.pi * (q.imag * thickness_nm / wavelength_nm)
         grown = -0.5 * np.expm1(-2.0 * fading)  # sinh y · e^−y
         even = 1.0 - grown  # cosh y · e^−y
         sine, cosine = np.sin(real), np.cos(real)
@@ -64,16 +75,11 @@ class _HalfPhase:
         return np.asarray(self.cosine * self.cosine - self.sine * self.sine)
 
 
-def _half_phase(half_turns: Any) -> _HalfPhase:
-    return _HalfPhase(np.asarray(half_turns, dtype=np.complex128))
-
-
 def _share(
-    y_h: Any, y_1: Any, y_2: Any, half_1: _HalfPhase, half_2: _HalfPhase, cells: Any
+    y_h: Any, y_1: Any, y_2: Any, imbalance: Any, half_1: _HalfPhase, half_2: _HalfPhase, cells: Any
 ) -> tuple[Float64, Float64, Float64]:
-    """Return R, T and A of one polarisation from the admittances of host and films."""
+    """Return R, T and A of one polarisation from the admittances of host and films and ½(X − 1/X)."""
     contrast = y_2 / y_1
-    imbalance = 0.5 * ((y_2 - y_1) / y_1) * ((y_2 + y_1) / y_2)
     r = (y_h - y_1) / (y_h + y_1)
     one_minus, one_plus = _trace_distances(half_1, half_2, contrast)
     t, u, log_scale = _scaled_pair(
