@@ -16,6 +16,7 @@ __all__ = [
     "GLSL_LANDMARKS_HALVED_MAX_ABS",
     "GLSL_LANDMARKS_MAX_ABS",
     "GLSL_LANDMARKS_THICK_MAX_ABS",
+    "GLSL_MIRROR_COLOUR_MAX_ABS",
     "GLSL_OPTICS_MAX_ABS",
     "GLSL_PIXEL_RELATIVE",
     "GLSL_PIXEL_ROUGHNESS_MIN",
@@ -41,6 +42,10 @@ SPECTRAL_VERSUS_TMM_MAX_ABS: Final = 1e-12
 # float32 GLSL against float64 Python on equal float32 inputs: phases reach some hundred radians, of which
 # float32 keeps 1e-5; the sensitivities' Gaussians damp them first.
 GLSL_OPTICS_MAX_ABS: Final = 5e-6
+
+# A mirror's colour by the same rule in both: at one wavelength float32 errs by what a step of the wavelength
+# does, up to 1e-4 at the narrow fringes of ten cells; over the spectrum such errors take turns in sign.
+GLSL_MIRROR_COLOUR_MAX_ABS: Final = 5e-6
 
 # Rows so close to one of the text's own branches (film index = base index, …) may fall on either side.
 GLSL_BRANCH_ULP: Final = 8
