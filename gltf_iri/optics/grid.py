@@ -15,6 +15,7 @@ Float64 = NDArray[np.float64]
 Rows = slice | NDArray[np.intp]
 
 _TILE: Final = 8192  # numbers in one temporary: some ten of them share a core's second cache
+_LONGEST_SIDE: Final = 12288  # of a tile that is one line: to cut it in two costs more than the cache
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +97,7 @@ class Grid:
         if count * self._width == 0:
             return
         inner = count if self._is_turned else self._width
-        long_side = -(-inner // -(-inner // _TILE))  # even shares, rounded up
+        long_side = -(-inner // -(-inner // _LONGEST_SIDE))  # even shares, rounded up
         short_side = max(1, _TILE // long_side)
         row_step, column_step = (long_side, short_side) if self._is_turned else (short_side, long_side)
         size = min(row_step, count) * min(column_step, self._width)
