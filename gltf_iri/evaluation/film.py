@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from gltf_iri.colour.integrate import integrate_colour
 from gltf_iri.errors import UsageError
 from gltf_iri.optics.gulbrandsen import index_from_edge_tint
+from gltf_iri.optics.ior import fresnel0_to_ior
 from gltf_iri.planning.method import ParameterValue
 
 __all__ = [
@@ -63,16 +64,13 @@ def base_from_f0(f0: ArrayLike) -> Base:
         raise UsageError("The base reflectance wants three channels in its last axis.")
     if not np.all((colour >= 0.0) & (colour <= 1.0)):
         raise UsageError("The base reflectance F0 must lie in [0, 1].")
-    root = np.sqrt(colour)
-    with np.errstate(divide="ignore"):  # F0 = 1 is the perfect mirror, n = ∞
-        index = (1.0 + root) / (1.0 - root)
-    return Base(colour, index.astype(np.complex128))
+    return Base(colour, fresnel0_to_ior(colour).astype(np.complex128))
 
 
 def base_from_ior(ior: ArrayLike) -> Base:
     """Return the base of index n + ik (any shape), whose F0 under air is |(n − 1)/(n + 1)|²."""
     index = np.repeat(_checked_index(ior)[..., None], 3, axis=-1)
-    return Base(np.abs((index - 1.0) / (index + 1.0)) ** 2, index)
+    return Base(_reflectance_under_air(index), index)
 
 
 def base_from_edge_tint(f0: ArrayLike, edge_tint: ArrayLike) -> Base:
@@ -96,8 +94,7 @@ def base_from_dispersion(index_at: Dispersion) -> Base:
 
     def bare(rows: NDArray[np.intp], wavelength_nm: Float64) -> Float64:
         index = _checked_index(index_by_wavelength(index_at, wavelength_nm))
-        reflectance = np.abs((index - 1.0) / (index + 1.0)) ** 2
-        return np.broadcast_to(reflectance, (len(rows), wavelength_nm.shape[-1]))
+        return np.broadcast_to(_reflectance_under_air(index), (len(rows), wavelength_nm.shape[-1]))
 
     f0 = np.clip(integrate_colour(bare, 1, white="D65")[0], 0.0, 1.0)
     index = _checked_index(index_by_wavelength(index_at, np.array([_REFERENCE_NM])))
@@ -114,6 +111,11 @@ def index_by_wavelength(dispersion: Dispersion, wavelength_nm: Float64) -> Compl
     if index.shape != (asked.size,):
         raise UsageError(f"An index by wavelength has the shape {index.shape}, not ({asked.size},) as asked.")
     return index.reshape(asked.shape)
+
+
+def _reflectance_under_air(index: Complex128) -> Float64:
+    """Return |(n − 1)/(n + 1)|², straight on."""
+    return np.asarray(np.abs((index - 1.0) / (index + 1.0)) ** 2)
 
 
 def _checked_index(index: ArrayLike) -> Complex128:

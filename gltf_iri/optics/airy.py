@@ -23,6 +23,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gltf_iri.optics.modulus import squared_modulus
 from gltf_iri.optics.refraction import normal_index, normal_index_squared
 
 __all__ = ["FilmPower", "film_power"]
@@ -83,12 +84,8 @@ def _shares(y1: Any, y2: Any, y3: Any, phase: Any) -> tuple[Float64, Float64, Fl
     t = 2.0 * y1 * wave / D
     f, b = y1 * (y2 + y3) / (y2 * D), y1 * (y2 - y3) * wave / (y2 * D)
     fading = phase.imag
-    absorbed = y2.real * (_squared(f) + _squared(b)) * -np.expm1(-2.0 * fading)
+    absorbed = y2.real * (squared_modulus(f) + squared_modulus(b)) * -np.expm1(-2.0 * fading)
     absorbed = absorbed + 4.0 * y2.imag * np.sin(phase.real) * np.exp(-fading) * (f * b.conj()).real
     # A last bit above 1 is rounding, where all is reflected; one below 0, where nothing enters.
-    R = np.minimum(_squared(r), 1.0)
-    return R, np.maximum(y3.real, 0.0) / y1 * _squared(t), np.maximum(absorbed / y1, 0.0)
-
-
-def _squared(z: Any) -> Any:
-    return z.real * z.real + z.imag * z.imag
+    R = np.minimum(squared_modulus(r), 1.0)
+    return R, np.maximum(y3.real, 0.0) / y1 * squared_modulus(t), np.maximum(absorbed / y1, 0.0)

@@ -24,6 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.optics.bragg_cell import Films, Host
+from gltf_iri.optics.turns import sincos_turns
 
 __all__ = ["BlochCell", "gap_poles", "shifted_reflectance"]
 
@@ -192,10 +193,8 @@ def _strength(
 
 
 def _sincos(path_nm: Float64, wavenumber_per_nm: Float64, height_per_nm: float = 0.0) -> tuple[Any, Any]:
-    """Return sin φ and cos φ of φ = 2π path (ν + ia); whole turns come off before π is multiplied in."""
-    turns = path_nm * wavenumber_per_nm
-    phase = 2.0 * np.pi * (turns - np.rint(turns))
-    sine, cosine = np.sin(phase), np.cos(phase)
+    """Return sin φ and cos φ of φ = 2π path (ν + ia)."""
+    sine, cosine = sincos_turns(path_nm * wavenumber_per_nm)
     if height_per_nm == 0.0:
         return sine, cosine
     fade = np.minimum(2.0 * np.pi * height_per_nm * path_nm, _FADE_MAX)

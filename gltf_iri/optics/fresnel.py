@@ -11,6 +11,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gltf_iri.optics.modulus import squared_modulus
+
 __all__ = ["InterfacePower", "amplitude_p", "amplitude_s", "f_schlick", "interface_power", "phase_rad"]
 __all__ += ["transmission_p", "transmission_s"]
 
@@ -77,7 +79,12 @@ def interface_power(n_1: ArrayLike, q_1: ArrayLike, n_2: ArrayLike, q_2: ArrayLi
     t_s, t_p = transmission_s(q1, q2), transmission_p(n1, q1, n2, q2)
     # n₂* cosθ₂ = n₂* q₂/n₂
     into_p = (n2.conj() * q2 / n2).real
-    return InterfacePower(_squared(s), _squared(p), q2.real / q1 * _squared(t_s), into_p / q1 * _squared(t_p))
+    return InterfacePower(
+        squared_modulus(s),
+        squared_modulus(p),
+        q2.real / q1 * squared_modulus(t_s),
+        into_p / q1 * squared_modulus(t_p),
+    )
 
 
 def phase_rad(amplitude: ArrayLike) -> Float64:
@@ -98,10 +105,6 @@ def _contrast(a: Complex128, b: Complex128) -> Complex128:
 def _share(a: Any, total: Any) -> Complex128:
     is_empty = total == 0.0
     return np.asarray(np.where(is_empty, 1.0, a / np.where(is_empty, 1.0, total)))
-
-
-def _squared(z: Any) -> Float64:
-    return np.asarray(z.real * z.real + z.imag * z.imag)
 
 
 def _fifth_power(x: Float64) -> Float64:

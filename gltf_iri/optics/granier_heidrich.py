@@ -13,6 +13,8 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gltf_iri.optics.turns import sincos_turns
+
 __all__ = ["WAVELENGTHS_NM", "inner_normal", "layered_diffuse", "layered_reflection"]
 
 Float64 = NDArray[np.float64]
@@ -71,7 +73,8 @@ def layered_reflection(
 
     # 2Φ in whole turns: π n d (cos_l' + cos_v)/λ is half a turn of each half path.
     turns = r1 * d_nm * (cos_v - _dot(t_l, n0)) / np.array(WAVELENGTHS_NM)
-    colour = R + T + 2.0 * np.cos(2.0 * np.pi * (turns - np.rint(turns))) * np.sqrt(R * T)
+    _, fringe = sincos_turns(turns)
+    colour = R + T + 2.0 * fringe * np.sqrt(R * T)
     return np.asarray(np.where(l_enters & v_leaves, colour, np.maximum(_dot(mirrored, v), 0.0) ** e0))
 
 
@@ -85,8 +88,8 @@ def layered_diffuse(outside_ior: ArrayLike, layer_ior: ArrayLike, thickness_nm: 
     r0, d_nm = (np.asarray(a, dtype=np.float64)[..., None] for a in (outside_ior, thickness_nm))
     r1 = np.asarray(layer_ior, dtype=np.float64)
     T_d = 80.0 / 21.0 * r0 * r1 / (r1 + r0) ** 2
-    turns = 2.0 * r1 * d_nm / np.array(WAVELENGTHS_NM)
-    return np.asarray(1.0 + 2.0 * np.cos(2.0 * np.pi * (turns - np.rint(turns))) * np.sqrt(T_d * (1.0 - T_d)))
+    _, fringe = sincos_turns(2.0 * r1 * d_nm / np.array(WAVELENGTHS_NM))
+    return np.asarray(1.0 + 2.0 * fringe * np.sqrt(T_d * (1.0 - T_d)))
 
 
 def inner_normal(

@@ -17,6 +17,8 @@ from typing import Any, Final, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gltf_iri.optics.turns import sincos_turns
+
 __all__ = ["MODES_MAX", "ROOT_FINDERS", "Band", "RootFinder", "band", "band_gap_function"]
 __all__ += ["envelope_transmittance", "newton_steps", "zero_point"]
 
@@ -62,7 +64,7 @@ def band(mode: ArrayLike, lean: ArrayLike, r_squared: ArrayLike, root_finder: Ro
     start = m + _offset(amplitude, *_edge_phase(m, rho), rho, steps)
     end = m + 1.0 - _offset(amplitude, *_edge_phase(m + 1.0, rho), -rho, steps)
     # Airy point: cos πt = r² cos ρπt, t = m + ½ + x/π.
-    sine, cosine = _sincos_turns(0.25 * (rho * (2.0 * m + 1.0)))
+    sine, cosine = sincos_turns(0.25 * (rho * (2.0 * m + 1.0)))
     sign = np.where(_is_odd(m), 1.0, -1.0)
     airy = m + 0.5 + 0.5 * _offset(square, sign * cosine, -sign * sine, rho, steps)
     airy = np.clip(airy, m, m + 1.0)
@@ -86,8 +88,8 @@ def envelope_transmittance(t: ArrayLike, lean: ArrayLike, r_squared: ArrayLike) 
     (sin² ½S − r² sin² ½D)(cos² ½S − r² cos² ½D) / (sin ½S cos ½S − r² sin ½D cos ½D)²
     """
     t, rho, square = (np.asarray(a, dtype=np.float64) for a in (t, lean, r_squared))
-    sin_s, cos_s = _sincos_turns(0.25 * t)
-    sin_d, cos_d = _sincos_turns(0.25 * (rho * t))
+    sin_s, cos_s = sincos_turns(0.25 * t)
+    sin_d, cos_d = sincos_turns(0.25 * (rho * t))
     product = (sin_s * sin_s - square * (sin_d * sin_d)) * (cos_s * cos_s - square * (cos_d * cos_d))
     mean = sin_s * cos_s - square * (sin_d * cos_d)
     # The clip keeps rounding at the edges, and 0/0 at closed gaps, from leaving [0, 1].
@@ -97,8 +99,8 @@ def envelope_transmittance(t: ArrayLike, lean: ArrayLike, r_squared: ArrayLike) 
 def band_gap_function(t: ArrayLike, lean: ArrayLike, r_squared: ArrayLike) -> Float64:
     """Return (1 − r²) cos KΛ at t (Eq. 8 and 36); it does not overflow at r = 1."""
     t, rho, square = (np.asarray(a, dtype=np.float64) for a in (t, lean, r_squared))
-    _, cos_s = _sincos_turns(0.5 * t)
-    _, cos_d = _sincos_turns(0.5 * (rho * t))
+    _, cos_s = sincos_turns(0.5 * t)
+    _, cos_d = sincos_turns(0.5 * (rho * t))
     return np.asarray(cos_s - square * cos_d)
 
 
@@ -129,7 +131,7 @@ def _coarse_arctan(y: Float64) -> Float64:
 
 def _edge_phase(mode: Float64, rho: Float64) -> tuple[Float64, Float64]:
     """Return sine and cosine of φ for the edges of a mode, turned so that the root is positive."""
-    sine, cosine = _sincos_turns(0.25 * (rho * mode))
+    sine, cosine = sincos_turns(0.25 * (rho * mode))
     is_odd = _is_odd(mode)
     g, h = np.where(is_odd, cosine, sine), np.where(is_odd, -sine, cosine)
     return np.abs(g), np.copysign(1.0, g) * h
@@ -154,12 +156,6 @@ def _halve(low: Float64, high: Float64, sign: Any, level: Any, rho: Any, square:
         is_before = sign * band_gap_function(middle, rho, square) > level
         low, high = np.where(is_before, middle, low), np.where(is_before, high, middle)
     return np.asarray(0.5 * (low + high))
-
-
-def _sincos_turns(turns: Any) -> tuple[Float64, Float64]:
-    """Return sin(2πt) and cos(2πt); whole turns come off before π is multiplied in, and cost no digits."""
-    angle = (2.0 * np.pi) * (turns - np.rint(turns))
-    return np.sin(angle), np.cos(angle)
 
 
 def _is_odd(mode: Float64) -> NDArray[np.bool_]:

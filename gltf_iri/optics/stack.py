@@ -21,8 +21,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.backends import Backend
+from gltf_iri.optics.modulus import squared_modulus
 from gltf_iri.optics.stack_absorption import absorbed_in_layer
-from gltf_iri.optics.stack_layers import Layers, squared
+from gltf_iri.optics.stack_layers import Layers
 
 __all__ = ["StackPower", "StackResponse", "stack", "stack_power"]
 
@@ -207,9 +208,9 @@ def _entry(y_1: Float64, E: Complex128, H: Complex128) -> tuple[Float64, Float64
     size = _largest(total)
     is_nothing = size < _NOTHING
     shrink = 1.0 / np.where(is_nothing, 1.0, size)
-    share = 1.0 / np.where(is_nothing, 1.0, squared(total * shrink))
+    share = 1.0 / np.where(is_nothing, 1.0, squared_modulus(total * shrink))
     # A last bit above 1 is rounding, where all is reflected.
-    R = np.minimum(squared(other * shrink) * share, 1.0)
+    R = np.minimum(squared_modulus(other * shrink) * share, 1.0)
     return np.where(is_nothing, 0.0, R), 4.0 * (y_1 * shrink) * share * shrink, is_nothing
 
 

@@ -11,9 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.errors import UsageError
 from gltf_iri.optics.blocks import blocks, part
+from gltf_iri.optics.modulus import squared_modulus
 from gltf_iri.optics.refraction import normal_index, normal_index_squared
 
-__all__ = ["Layers", "squared"]
+__all__ = ["Layers"]
 
 Float64 = NDArray[np.float64]
 Complex128 = NDArray[np.complex128]
@@ -86,7 +87,7 @@ class Layers:
 
     def over_q(self) -> Complex128:
         """Return 1/q, or 0 where q is too small for sin β/q to differ from its limit 2πd/λ."""
-        size = squared(self.q)
+        size = squared_modulus(self.q)
         is_flat = size < _NO_NORMAL_INDEX
         inverse = self.q.conj() * (1.0 / np.where(is_flat, 1.0, size))
         # One rounding instead of three: in equal cells they add up.
@@ -101,9 +102,4 @@ class Layers:
     def over_epsilon(self) -> Complex128:
         """Return 1/n²."""
         epsilon = self.epsilon()
-        return np.asarray(epsilon.conj() * (1.0 / squared(epsilon)))
-
-
-def squared(z: Complex128) -> Float64:
-    """Return |z|²."""
-    return np.asarray(z.real * z.real + z.imag * z.imag)
+        return np.asarray(epsilon.conj() * (1.0 / squared_modulus(epsilon)))

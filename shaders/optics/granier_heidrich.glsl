@@ -2,7 +2,7 @@
 // Twin: gltf_iri/optics/granier_heidrich.py, which says what the model leaves out.
 
 #include "common/math.glsl"
-#include "optics/sensitivity.glsl"
+#include "optics/turns.glsl"
 
 const vec3 LAYER_WAVELENGTHS_NM = vec3(645.0, 525.0, 445.0);
 

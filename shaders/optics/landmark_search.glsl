@@ -2,18 +2,13 @@
 // whole numbers. Twin: gltf_iri/optics/landmarks.py, which derives the equations.
 
 #include "common/math.glsl"
+#include "optics/turns.glsl"
 
 // As in the twin. Float32's own smallest numbers keep 0/0 away.
 const int LANDMARK_HALVINGS = 10;
 const int LANDMARK_NEWTON_MAX = 2;
 const float LANDMARK_TINY = 1e-30;
 const float LANDMARK_LEAST_SLOPE = 0.05;
-
-// sin and cos of 2π turns; whole turns come off first, and cost no digits.
-vec2 sincos_turns(float turns) {
-    float angle = 2.0 * PI * (turns - floor(turns + 0.5));
-    return vec2(sin(angle), cos(angle));
-}
 
 bool is_odd(float mode) { return mode - 2.0 * floor(0.5 * mode) == 1.0; }
 

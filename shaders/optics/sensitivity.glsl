@@ -3,13 +3,7 @@
 
 #include "common/math.glsl"
 #include "generated/film_constants.glsl"
-
-// cos(2π cycles + shift) with whole turns taken off first: a cosine of some hundred radians loses digits that
-// the fraction of a turn still has.
-vec3 cos_turns(vec3 cycles, vec3 shift) {
-    vec3 fraction = cycles - floor(cycles + 0.5);
-    return cos(2.0 * PI * fraction + shift);
-}
+#include "optics/turns.glsl"
 
 // S(D, φ) = M Σ A cos(2π D/λ + φ) exp(−(D/L)²)
 // Belcour & Barla 2017, section 4; KHR_materials_iridescence, Analytic Spectral Integration. The text's val, pos and
