@@ -7,6 +7,7 @@ bits, which would leave three digits of a colour.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
@@ -27,19 +28,24 @@ if TYPE_CHECKING:
 
 __all__ = ["OPTICS_TABLES", "SENSITIVITY_FINE_END_NM", "SENSITIVITY_FINE_PER_NM", "SENSITIVITY_LAST"]
 __all__ += [
+    "SENSITIVITY_MAX",
     "SENSITIVITY_ROW",
     "SENSITIVITY_ROWS",
     "SENSITIVITY_ROW_BITS",
+    "SENSITIVITY_SLOPE_BITS",
+    "SENSITIVITY_SLOPE_MAX",
     "SPECTRAL_DEGREE",
     "SPECTRAL_OPD_MAX_NM",
     "SPECTRAL_SMOOTH_DEGREE",
 ]
-__all__ += ["OpticsTableStore", "optics_table", "table_texture"]
+__all__ += ["OpticsTableStore", "Table", "optics_table", "table_texture"]
 
 Float32 = NDArray[np.float32]
+UInt32 = NDArray[np.uint32]
+Table = Float32 | UInt32  # uint32 fills a usampler2D
 
 # fill(white, **parameters of the method) → (rows, columns, channels), at most four channels
-TableFill = Callable[..., Float32]
+TableFill = Callable[..., Table]
 
 _CHANNELS: Final = 4
 
@@ -48,13 +54,20 @@ SPECTRAL_DEGREE: Final = 512
 # Spectra without fringes, of films that are very thin or frustrated.
 SPECTRAL_SMOOTH_DEGREE: Final = 32
 
-# Ŝ between texels is read linearly, which errs by h²/8 · |Ŝ″|: 2e-6 at a quarter of a nanometre, and beyond
-# the fine part, where |Ŝ| has fallen below 0.05, no more at a whole one.
+# Each texel holds lines, which err by h²/16 · |Ŝ″|: 1e-6 at a quarter of a nanometre, and beyond the fine
+# part, where |Ŝ| has fallen below 0.05, no more at a whole one. The fine part ends half way between texels.
 SENSITIVITY_FINE_PER_NM: Final = 4
-SENSITIVITY_FINE_END_NM: Final = 4096
+SENSITIVITY_FINE_END_NM: Final = 4096 + 0.5 / SENSITIVITY_FINE_PER_NM
+
+# A line in 32 bits: its value, and in the last ones its slope from texel to texel; rounding costs 2e-6.
+# The limits are what |Re Ŝ|, |Im Ŝ| and their slopes stay below, under either white.
+SENSITIVITY_MAX: Final = 1.6
+SENSITIVITY_SLOPE_MAX: Final = 0.0045
+SENSITIVITY_SLOPE_BITS: Final = 11
+
 SENSITIVITY_ROW_BITS: Final = 10
 SENSITIVITY_ROW: Final = 1 << SENSITIVITY_ROW_BITS
-SENSITIVITY_LAST: Final = SENSITIVITY_FINE_END_NM * (SENSITIVITY_FINE_PER_NM - 1) + int(END_NM)
+SENSITIVITY_LAST: Final = math.ceil(SENSITIVITY_FINE_END_NM * (SENSITIVITY_FINE_PER_NM - 1) + END_NM)
 SENSITIVITY_ROWS: Final = SENSITIVITY_LAST // SENSITIVITY_ROW + 1
 
 # Fringes of a longer path difference (some 100 µm) are not resolved by so many wavelengths.
@@ -78,23 +91,38 @@ def _spectral_rule(white: White, **parameters: ParameterValue) -> Float32:
     return rows
 
 
-def _film_sensitivity(white: White, tolerance: float = 1.0, **parameters: ParameterValue) -> Float32:
-    """Return (2 · SENSITIVITY_ROWS, SENSITIVITY_ROW + 1, 4): Re Ŝ, and in the rows after it Im Ŝ.
+def _film_sensitivity(white: White, tolerance: float = 1.0, **parameters: ParameterValue) -> UInt32:
+    """Return (2 · SENSITIVITY_ROWS, SENSITIVITY_ROW, 4): Re Ŝ, and in the rows after it Im Ŝ.
 
     From texel to texel the path difference grows by 1/SENSITIVITY_FINE_PER_NM, and from
-    SENSITIVITY_FINE_END_NM on by 1 nm; a row's last texel is the next one's first. The fourth channel is the
+    SENSITIVITY_FINE_END_NM on by 1 nm. Three channels are lines (`_words`); the fourth is the float32 of the
     envelope over half of `tolerance`.
     """
-    fine_nm = np.arange(SENSITIVITY_FINE_END_NM * SENSITIVITY_FINE_PER_NM) / SENSITIVITY_FINE_PER_NM
-    opd_nm = np.concatenate([fine_nm, np.arange(SENSITIVITY_FINE_END_NM, END_NM)])
     table = sensitivity_table(white)
-    texels = np.zeros((2, SENSITIVITY_ROWS * SENSITIVITY_ROW + 1, 4))
+    # Before, at and after each texel: where its line begins, and ends.
+    place = np.arange(SENSITIVITY_LAST)[:, None] + np.array([-0.5, 0.0, 0.5])
+    opd_nm = np.maximum(
+        place / SENSITIVITY_FINE_PER_NM, place - (SENSITIVITY_FINE_PER_NM - 1) * SENSITIVITY_FINE_END_NM
+    )
     values = table.at(opd_nm)
-    texels[0, : len(opd_nm), :3], texels[1, : len(opd_nm), :3] = values.real, values.imag
-    texels[0, : len(opd_nm), 3] = table.bound(opd_nm) * (2.0 / tolerance)
-    starts = SENSITIVITY_ROW * np.arange(SENSITIVITY_ROWS)[:, None]
-    rows = texels[:, starts + np.arange(SENSITIVITY_ROW + 1)]
-    return rows.reshape(-1, SENSITIVITY_ROW + 1, 4).astype(np.float32)
+    texels = np.zeros((2, SENSITIVITY_ROWS * SENSITIVITY_ROW, 4), dtype=np.uint32)
+    texels[0, :SENSITIVITY_LAST, :3], texels[1, :SENSITIVITY_LAST, :3] = (
+        _words(values.real),
+        _words(values.imag),
+    )
+    bound = table.bound(opd_nm[:, 1]) * (2.0 / tolerance)
+    texels[0, :SENSITIVITY_LAST, 3] = bound.astype(np.float32).view(np.uint32)
+    return texels.reshape(-1, SENSITIVITY_ROW, 4)
+
+
+def _words(values: NDArray[np.float64]) -> UInt32:
+    """Return (n, 3): the lines through `values` (n, 3 places, 3 channels) that err least between them."""
+    begin, middle, end = values[:, 0], values[:, 1], values[:, 2]
+    low = 1 << SENSITIVITY_SLOPE_BITS
+    slope = np.rint((end - begin) * (0.5 * low / SENSITIVITY_SLOPE_MAX)).astype(np.int64) & (low - 1)
+    whole = (begin + 2.0 * middle + end) * (0.25 * 2.0**31 / SENSITIVITY_MAX)
+    value = np.rint((whole - slope) / low).astype(np.int64)
+    return (value * low + slope).astype(np.uint32)
 
 
 OPTICS_TABLES: Final[Mapping[str, TableFill]] = MappingProxyType(
@@ -107,18 +135,18 @@ OPTICS_TABLES: Final[Mapping[str, TableFill]] = MappingProxyType(
 )
 
 
-def optics_table(name: str, white: str, parameters: Mapping[str, ParameterValue]) -> Float32:
+def optics_table(name: str, white: str, parameters: Mapping[str, ParameterValue]) -> Table:
     """Return the table called `name`, (rows, columns, channels); UsageError where there is none."""
     if name not in OPTICS_TABLES:
         raise UsageError(f"There is no table '{name}'; choose one of: {', '.join(OPTICS_TABLES)}.")
     return OPTICS_TABLES[name](white, **parameters)
 
 
-def table_texture(context: moderngl.Context, table: Float32) -> moderngl.Texture:
-    """Return `table` (rows, columns, 1–4 channels) as an RGBA32F texture, the caller's to release.
+def table_texture(context: moderngl.Context, table: Table) -> moderngl.Texture:
+    """Return `table` (rows, columns, 1–4 channels) as a texture, the caller's to release.
 
-    Missing channels are 0; nothing filters or repeats. Raises MissingCapabilityError where OpenGL takes none
-    so large.
+    It is RGBA32F or, of uint32, RGBA32UI; missing channels are 0; nothing filters or repeats. Raises
+    MissingCapabilityError where OpenGL takes none so large.
     """
     rows, columns, channels = table.shape
     limit = context.info["GL_MAX_TEXTURE_SIZE"]
@@ -126,9 +154,10 @@ def table_texture(context: moderngl.Context, table: Float32) -> moderngl.Texture
         raise MissingCapabilityError(
             f"A table of {columns} × {rows} is wanted; this OpenGL takes textures up to {limit}."
         )
-    texels = np.zeros((rows, columns, _CHANNELS), dtype=np.float32)
+    texels = np.zeros((rows, columns, _CHANNELS), dtype=table.dtype)
     texels[..., :channels] = table
-    texture = context.texture((columns, rows), _CHANNELS, texels.tobytes(), dtype="f4")
+    kind = "u4" if table.dtype == np.uint32 else "f4"
+    texture = context.texture((columns, rows), _CHANNELS, texels.tobytes(), dtype=kind)
     texture.filter = (context.NEAREST, context.NEAREST)
     texture.repeat_x = texture.repeat_y = False
     return texture

@@ -20,7 +20,7 @@ from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import ParameterValue
 from gltf_iri.rendering.context import renderer_name
-from gltf_iri.rendering.optics_tables import table_texture
+from gltf_iri.rendering.optics_tables import Table, table_texture
 from gltf_iri.rendering.source import ShaderSource, assemble_text, build_program
 from gltf_iri.rendering.twins import COMPONENTS, ResultType, find_twin
 from gltf_iri.rendering.uniforms import bind
@@ -82,7 +82,7 @@ class Probe:
         *,
         argument_types: Sequence[ResultType] | None = None,
         member: str = "",
-        tables: Mapping[str, Float32] = MappingProxyType({}),
+        tables: Mapping[str, Table] = MappingProxyType({}),
     ) -> Float32:
         """Return `function` of the file `include` (below shaders/) for each row of the broadcast arguments.
 
@@ -113,7 +113,7 @@ class Probe:
         rows: Float32,
         types: Sequence[ResultType],
         result: ResultType,
-        tables: Mapping[str, Float32],
+        tables: Mapping[str, Table],
     ) -> Float32:
         if source not in self._programs:
             self._programs[source] = build_program(self._context, source, varyings=("probe_result",))

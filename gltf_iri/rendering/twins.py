@@ -14,7 +14,7 @@ from gltf_iri.evaluation.film import Evaluation, Film, base_from_f0
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import METHODS, ParameterValue, find_method
-from gltf_iri.rendering.optics_tables import optics_table
+from gltf_iri.rendering.optics_tables import Table, optics_table
 
 __all__ = ["COMPONENTS", "ResultType", "Twin", "find_twin"]
 
@@ -35,7 +35,7 @@ class Twin:
     include: str  # the file below shaders/ that defines it
     types: tuple[ResultType, ...]
     arguments: tuple[NDArray[np.float64], ...]  # of the subject, in the shapes in which they broadcast
-    tables: Mapping[str, NDArray[np.float32]]
+    tables: Mapping[str, Table]
     blank: Evaluation  # method, white and checked parameters; its colour is of no meaning
 
 

@@ -29,8 +29,12 @@ const float THIN_OPD_NM = 100.0;
 
 // gltf_iri/rendering/optics_tables.py
 const float SENSITIVITY_FINE_PER_NM = 4.0;
-const float SENSITIVITY_FINE_END_NM = 4096.0;
-const float SENSITIVITY_LAST = 76288.0;
+const float SENSITIVITY_FINE_END_NM = 4096.125;
+const float SENSITIVITY_LAST = 76289.0;
+const float SENSITIVITY_UNIT = 7.4505806e-10;
+const float SENSITIVITY_SLOPE_UNIT = 2.09547579e-12;
+const uint SENSITIVITY_SLOPE_SHIFT = 21u;
+const int SENSITIVITY_ROW = 1024;
 const int SENSITIVITY_ROW_BITS = 10;
 const int SENSITIVITY_ROWS = 75;
 const int SPECTRAL_SMOOTH_COUNT = 33;

@@ -89,23 +89,25 @@ vec3 film_colour_fourier(
         entering += 0.5 * node.rgb * both;
     }
     FilmSeries s = film_series(y_s), p = film_series(y_p);
+    vec3 power_s = vec3(0.0), power_p = vec3(0.0), left = vec3(0.0);
     if (has_fringes) {
         entering = s.entering + p.entering;
+        power_s = 2.0 * s.entering * s.ratio;
+        power_p = 2.0 * p.entering * p.ratio;
+        left = abs(power_s) * s.tail + abs(power_p) * p.tail;
     }
-    vec3 power_s = 2.0 * s.entering * s.ratio, power_p = 2.0 * p.entering * p.ratio;
-    vec3 left = abs(power_s) * s.tail + abs(power_p) * p.tail;
-    vec4 sensitivity = vec4(1e9);  // above any bound: the first order is always looked up
     // The table ends before the orders do, and with it the bound: each moves on by more than FOURIER_THIN_OPD_NM.
     for (int m = 1; m <= FOURIER_ORDERS; ++m) {
-        // The envelope never rises: what the last order's leaves below 1 need not be looked up.
-        if (!(has_fringes && max3(left) * sensitivity.a > 1.0)) {
-            break;
-        }
-        sensitivity = sensitivity_real(sensitivity_place(float(m) * opd_nm));
+        vec4 sensitivity = sensitivity_real(sensitivity_place(float(m) * opd_nm));
         entering += (power_s + power_p) * clamp(left * sensitivity.a - 1.0, 0.0, 1.0) * sensitivity.rgb;
         power_s *= s.ratio;
         power_p *= p.ratio;
         left = abs(power_s) * s.tail + abs(power_p) * p.tail;
+        // The envelope never rises: what this order's leaves below 1 need not be looked up. Left at the end, not at
+        // the start: software renderers run what follows once more for nobody.
+        if (!(max3(left) * sensitivity.a > 1.0)) {
+            break;
+        }
     }
     return 1.0 - entering;
 }

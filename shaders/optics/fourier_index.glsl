@@ -70,13 +70,13 @@ vec3 film_colour_fourier(
         SensitivityPlace place = sensitivity_place(float(m) * opd_nm);
         vec4 real_part = sensitivity_real(place);
         float bound = (length(power_s) * s.tail + length(power_p) * p.tail) * real_part.a;
-        if (bound <= 1.0) {
-            break;
-        }
-        vec2 weight = (power_s + power_p) * min(bound - 1.0, 1.0);
+        vec2 weight = (power_s + power_p) * clamp(bound - 1.0, 0.0, 1.0);
         entering += weight.x * real_part.rgb - weight.y * sensitivity_imaginary(place);
         power_s = complex_product(power_s, s.ratio);
         power_p = complex_product(power_p, p.ratio);
+        if (!(bound > 1.0)) {
+            break;
+        }
     }
     return 1.0 - entering;
 }

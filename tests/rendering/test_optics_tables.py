@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from gltf_iri.colour.quadrature import colour_rule
-from gltf_iri.colour.sensitivity_table import sensitivity_table
+from gltf_iri.colour.sensitivity_table import END_NM, sensitivity_table
+from gltf_iri.colour.spaces import White
 from gltf_iri.errors import MissingCapabilityError, UsageError
 from gltf_iri.planning.method import METHODS
 from gltf_iri.rendering.optics_tables import (
@@ -15,8 +16,9 @@ from gltf_iri.rendering.optics_tables import (
     SENSITIVITY_FINE_END_NM,
     SENSITIVITY_FINE_PER_NM,
     SENSITIVITY_LAST,
-    SENSITIVITY_ROW,
-    SENSITIVITY_ROWS,
+    SENSITIVITY_MAX,
+    SENSITIVITY_SLOPE_BITS,
+    SENSITIVITY_SLOPE_MAX,
     OpticsTableStore,
     optics_table,
     table_texture,
@@ -28,9 +30,9 @@ def test_every_table_of_a_method_is_filled_and_every_filled_one_used() -> None:
 
 
 @pytest.mark.parametrize("name", OPTICS_TABLES)
-def test_a_table_is_finite_float32_of_at_most_four_channels(name: str) -> None:
+def test_a_table_is_finite_and_of_at_most_four_channels(name: str) -> None:
     table = optics_table(name, "D65", {})
-    assert table.dtype == np.float32
+    assert table.dtype in (np.float32, np.uint32)
     assert table.ndim == 3
     assert table.shape[2] <= 4
     assert np.isfinite(table).all()
@@ -45,22 +47,31 @@ def test_wavenumbers_keep_forty_bits_in_two_parts_of_which_the_first_has_twelve(
     np.testing.assert_allclose(table[1:, :, :3].sum(axis=1), 1.0, rtol=0, atol=2e-6)
 
 
-def test_sensitivities_between_texels_are_those_of_the_cubics() -> None:
-    texels = optics_table("film_sensitivity", "D65", {"tolerance": 1e-4}).astype(np.float64)
-    real, imaginary = texels[:SENSITIVITY_ROWS], texels[SENSITIVITY_ROWS:]
-    np.testing.assert_array_equal(real[:-1, -1], real[1:, 0])
+@pytest.mark.parametrize("white", ["D65", "E"])
+def test_a_texels_lines_are_the_cubics_as_far_as_half_way_to_the_next(white: White) -> None:
+    texels = optics_table("film_sensitivity", white, {"tolerance": 1e-4}).reshape(2, -1, 4)
+    assert not texels[:, SENSITIVITY_LAST:].any()
     g = np.random.default_rng(7)
-    i = g.integers(0, SENSITIVITY_LAST, 5000)
-    fine = SENSITIVITY_FINE_PER_NM * SENSITIVITY_FINE_END_NM
-    opd_nm = np.where(i < fine, (i + 0.5) / SENSITIVITY_FINE_PER_NM, i + 0.5 - fine + SENSITIVITY_FINE_END_NM)
-    row, column = np.divmod(i, SENSITIVITY_ROW)
-    table = sensitivity_table("D65")
-    for rows, expected in ((real, table.at(opd_nm).real), (imaginary, table.at(opd_nm).imag)):
-        between = 0.5 * (rows[row, column] + rows[row, column + 1])
-        np.testing.assert_allclose(between[:, :3], expected, rtol=0, atol=2e-6)
-    bound = 0.5 * (real[row, column] + real[row, column + 1])[:, 3]
-    np.testing.assert_allclose(0.5e-4 * bound, table.bound(opd_nm), rtol=0, atol=1e-6)
-    assert not texels.reshape(2, -1, 4)[:, SENSITIVITY_LAST + SENSITIVITY_ROWS :].any()
+    near_the_end_of_the_fine = np.linspace(-2.0, 2.0, 41)
+    opd_nm = np.concatenate(
+        [g.uniform(0.0, 1.0, 20_000) ** 3 * END_NM, SENSITIVITY_FINE_END_NM + near_the_end_of_the_fine]
+    )
+    coarse = opd_nm + (SENSITIVITY_FINE_PER_NM - 1) * SENSITIVITY_FINE_END_NM
+    at = np.minimum(SENSITIVITY_FINE_PER_NM * opd_nm, coarse)
+    nearest = np.floor(at + 0.5)
+    words = texels[:, nearest.astype(int)]
+    # What sensitivity_line of shaders/optics/film_sensitivity.glsl makes of them.
+    value, slope = (
+        words[..., :3].view(np.int32),
+        (words[..., :3] << (32 - SENSITIVITY_SLOPE_BITS)).view(np.int32),
+    )
+    line = 2.0**-31 * (
+        SENSITIVITY_MAX * value + (SENSITIVITY_SLOPE_MAX * (at - nearest))[:, None] * slope.astype(np.float64)
+    )
+    table = sensitivity_table(white)
+    np.testing.assert_allclose(line[0] + 1j * line[1], table.at(opd_nm), rtol=0, atol=3e-6)
+    bound = np.ascontiguousarray(words[0, :, 3]).view(np.float32)
+    np.testing.assert_allclose(0.5e-4 * bound, table.bound(opd_nm), rtol=2e-3, atol=1e-5)
 
 
 def test_a_store_makes_each_table_once_for_each_white(gl_context: moderngl.Context) -> None:
