@@ -11,7 +11,7 @@ from gltf_iri.bench.mirror_set import mirror_set
 from gltf_iri.bench.timing import interleaved_ns
 from gltf_iri.colour.cumulative import cumulative_steps
 from gltf_iri.evaluation.landmark_boxes import lanes_of, lossless_cells, spectral_boxes
-from gltf_iri.optics.landmarks import MODES_MAX, RootFinder, newton_steps
+from gltf_iri.optics.landmarks import RootFinder, newton_steps
 
 __all__ = ["LandmarkCost", "landmark_cost"]
 
@@ -50,11 +50,11 @@ def landmark_cost(
 
     def search() -> None:
         for part, cells in blocks:
-            landmark_search(part.stop - part.start, cells, steps, MODES_MAX)
+            landmark_search(part.stop - part.start, cells, steps)
 
     def whole() -> None:
         for part, cells in blocks:
-            landmark_colours(cells, subdivisions, steps, MODES_MAX, table, rgb[part])
+            landmark_colours(cells, subdivisions, steps, table, rgb[part])
 
     for run in (search, whole):
         run()  # compiles

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from gltf_iri.colour.wavenumber_rule import GAP_STEPS
 from gltf_iri.compiled.loops import loop
 from gltf_iri.compiled.sincos import sincos_turns
 
@@ -16,8 +17,6 @@ __all__ = ["GAPS", "add_gaps", "add_thick_gaps", "bit_count", "note_gap"]
 
 # Treated at once. Rows of scratch have fixed lengths: the compiler then sees that they do not overlap.
 GAPS = 1024
-
-_GAP_STEPS = 16.0  # as in colour/wavenumber_rule.py
 
 
 @loop
@@ -99,7 +98,7 @@ def add_gaps(count: int, grid: Any, rows: Any, exponents: Any, gaps: Any, gap_we
     _find_poles(count, grid[0], grid[1], exponents, gaps)
     last = gap_weights.shape[0] - 2
     for i in range(count):
-        place = _GAP_STEPS * gaps[i]
+        place = float(GAP_STEPS) * gaps[i]
         entry = min(int(place), last)
         share, half = place - entry, 0.5 * gaps[GAPS + i]
         for c in range(3):

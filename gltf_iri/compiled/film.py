@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.compiled.loops import inline, loop
-from gltf_iri.compiled.refraction import normal_index_of, normal_index_squared
+from gltf_iri.compiled.refraction import normal_index, normal_index_squared
 from gltf_iri.compiled.sincos import sine_of_octant, sine_of_quadrant
 from gltf_iri.compiled.two_floats import exact_product, ratio, split, square_root
 
@@ -92,7 +92,7 @@ def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
         if abs(squared) < _GRAZING**2:
             squared, squared_low = _GRAZING**2, 0.0
         q2, q2_low = square_root(abs(squared), sign * squared_low)
-        q3_real, q3_imag = normal_index_of(
+        q3_real, q3_imag = normal_index(
             normal_index_squared(n3_real, n3_imag, n1, c1)[0], 2.0 * n3_real * n3_imag
         )
         k_s, h_s, g_s = _coefficients(share, n1 * c1, sign, q2, q3_real, q3_imag)

@@ -14,17 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.compiled.loops import inline, loop
+from gltf_iri.compiled.sensitivity_cells import cubic, envelope_at
+from gltf_iri.optics.film_series import NEAR_ZERO
 
 __all__ = ["sum_series"]
 
 Float64 = NDArray[np.float64]
 
 _BLOCK = 128  # what is kept between the two loops stays in the nearest cache
-_NEAR_ZERO = 1e-20
-
-# Unsigned, or each of a cell's numbers would first be asked whether it counts from the array's end.
-_U1, _U2, _U3, _U4, _U5, _U6 = (np.uint64(i) for i in range(1, 7))
-_U7, _U8, _U9, _U10, _U11, _U12 = (np.uint64(i) for i in range(7, 13))
 
 
 @loop
@@ -59,10 +56,10 @@ def sum_series(
         for j in range(count):
             i = start + j
             n1, n2, n3 = outside_ior[i], film_ior[i], base_ior[i]
-            is_mirror = (n3 > 1e300) | (n3 < _NEAR_ZERO)
+            is_mirror = (n3 > 1e300) | (n3 < NEAR_ZERO)
             n3 = 1.0 if is_mirror else n3
             c1 = cos_theta_1[i]
-            q1 = n1 * (_NEAR_ZERO if c1 < _NEAR_ZERO else c1)
+            q1 = n1 * (NEAR_ZERO if c1 < NEAR_ZERO else c1)
             q1_squared = q1 * q1
             q2_squared = (n2 - n1) * (n2 + n1) + q1_squared
             q3_squared = (n3 - n1) * (n3 + n1) + q1_squared
@@ -112,7 +109,7 @@ def sum_series(
             red, green, blue = red - r, green - g, blue - b
             t, left = kept[j + 11 * _BLOCK], kept[j + 12 * _BLOCK] + kept[j + 13 * _BLOCK]
             k = np.uint64(cell[j + 3 * _BLOCK])
-            bound = left * (envelope[_U2 * k] + t * envelope[_U2 * k + _U1])
+            bound = left * envelope_at(k, t, envelope)
             is_open[i] = kept[j + _BLOCK] < 0.0
             if bound > 1.0 and not is_open[i]:
                 step, place = kept[j + _BLOCK], kept[j + 18 * _BLOCK]
@@ -162,14 +159,11 @@ def _place(place: float, left: float, decay: float, cells: float) -> tuple[np.in
 
 @inline
 def _term(
-    cell: np.int64, t: float, power: float, left: float, c: Float64, envelope: Float64
+    cell: np.int64, t: float, power: float, left: float, cubics: Float64, envelope: Float64
 ) -> tuple[float, float, float, float]:
     """Return one order's share of the three channels, and what all from this on may add up to, per τ."""
     k = np.uint64(cell)
-    bound = left * (envelope[_U2 * k] + t * envelope[_U2 * k + _U1])
+    bound = left * envelope_at(k, t, envelope)
     weight = power * max(0.0, min(1.0, bound - 1.0))
-    i = _U12 * k
-    red = c[i] + t * (c[i + _U3] + t * (c[i + _U6] + t * c[i + _U9]))
-    green = c[i + _U1] + t * (c[i + _U4] + t * (c[i + _U7] + t * c[i + _U10]))
-    blue = c[i + _U2] + t * (c[i + _U5] + t * (c[i + _U8] + t * c[i + _U11]))
+    red, green, blue = cubic(k, t, cubics)
     return weight * red, weight * green, weight * blue, bound

@@ -11,15 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.compiled.loops import inline, loop
+from gltf_iri.compiled.sensitivity_cells import cubic, envelope_at
+from gltf_iri.optics.film_series import NEAR_ZERO
 
 __all__ = ["sum_absorbing_series"]
 
 Float64 = NDArray[np.float64]
-
-_NEAR_ZERO = 1e-20
-
-_U1, _U2, _U3, _U4, _U5, _U6 = (np.uint64(i) for i in range(1, 7))
-_U7, _U8, _U9, _U10, _U11, _U12 = (np.uint64(i) for i in range(7, 13))
 
 
 @loop
@@ -46,9 +43,9 @@ def sum_absorbing_series(
     cells = float(len(envelope) // 2 - 1)
     for i in range(len(outside_ior)):
         n1, n2, n3 = outside_ior[i], film_ior[i], base_index[i]
-        is_mirror = math.isinf(n3.real) or abs(n3) < _NEAR_ZERO
+        is_mirror = math.isinf(n3.real) or abs(n3) < NEAR_ZERO
         n3 = complex(1.0, 0.0) if is_mirror else n3
-        q1 = n1 * max(cos_theta_1[i], _NEAR_ZERO)
+        q1 = n1 * max(cos_theta_1[i], NEAR_ZERO)
         q1_squared = q1 * q1
         q2_squared = (n2 - n1) * (n2 + n1) + q1_squared
         q2 = math.sqrt(q2_squared if q2_squared > 0.0 else 1.0)
@@ -74,11 +71,11 @@ def sum_absorbing_series(
             t = place - whole
             left_s, left_p = left_s * size_s, left_p * size_p
             k = np.uint64(whole)
-            bound = (left_s + left_p) * (envelope[_U2 * k] + t * envelope[_U2 * k + _U1])
+            bound = (left_s + left_p) * envelope_at(k, t, envelope)
             weight = (power_s + power_p) * max(0.0, min(1.0, bound - 1.0))
-            r, g, b = _cubic(k, t, real)
+            r, g, b = cubic(k, t, real)
             red, green, blue = red - weight.real * r, green - weight.real * g, blue - weight.real * b
-            r, g, b = _cubic(k, t, imaginary)
+            r, g, b = cubic(k, t, imaginary)
             red, green, blue = red + weight.imag * r, green + weight.imag * g, blue + weight.imag * b
             power_s, power_p = power_s * z_s, power_p * z_p
             order += 1
@@ -100,12 +97,3 @@ def _polarisation(y1: float, y2: float, y3: complex, share: float) -> tuple[floa
     z = -contrast * (y2 - y3) / (first * second)
     tail = (1.0 + abs(z)) * (y1 * into) * (first * first * inverse) * (second_squared * inverse)
     return 2.0 * y1 * y2 * into * inverse, z, tail
-
-
-@inline
-def _cubic(cell: np.uint64, t: float, c: Float64) -> tuple[float, float, float]:
-    i = _U12 * cell
-    red = c[i] + t * (c[i + _U3] + t * (c[i + _U6] + t * c[i + _U9]))
-    green = c[i + _U1] + t * (c[i + _U4] + t * (c[i + _U7] + t * c[i + _U10]))
-    blue = c[i + _U2] + t * (c[i + _U5] + t * (c[i + _U8] + t * c[i + _U11]))
-    return red, green, blue

@@ -11,20 +11,21 @@ from typing import Any
 
 import numpy as np
 
+from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM
 from gltf_iri.compiled.landmark_search import search_by_halving, search_by_newton
 from gltf_iri.compiled.loops import inline, loop
 from gltf_iri.compiled.sincos import sincos_turns
+from gltf_iri.optics.landmarks import MODES_MAX
 
 __all__ = ["landmark_colours", "landmark_search"]
 
-_BANDS_AT_ONCE = 264  # more than a lane ever has: MODES_MAX + 1 of optics/landmarks.py
+_BANDS_AT_ONCE = MODES_MAX + 8  # more than a lane ever has
 _MIRRORS_AT_ONCE = 256
 _BOXES_AT_ONCE = 256
 _BOXES_PER_BAND = 3  # each in at most `subdivisions` parts
-_TINY = 1e-150
-_SHORTEST_NM = 360.0
-_LONGEST_NM = 830.0
-_LEAST_PATH_NM = 1e-12
+_SHORTEST_NM, _LONGEST_NM = WAVELENGTH_RANGE_NM
+_TINY = 1e-150  # as in optics/landmarks.py
+_LEAST_PATH_NM = 1e-12  # as in evaluation/landmark_boxes.py
 
 
 @loop
@@ -56,9 +57,7 @@ def _fill_lanes(count: int, cell: Any, lanes: Any) -> None:
 
 
 @loop
-def _collect(
-    lane: int, last_lane: int, lanes: Any, modes_max: int, owner: Any, bands: Any
-) -> tuple[int, int]:
+def _collect(lane: int, last_lane: int, lanes: Any, owner: Any, bands: Any) -> tuple[int, int]:
     """Fill the bands of the lanes from `lane` on, as many as fit; return the next lane and their number.
 
     owner : (b,) lane of each. bands : (4, b) mode, ρ, r₁₂² and how many bands it stands for.
@@ -69,7 +68,7 @@ def _collect(
         if path_nm > 0.0:
             first = np.floor(2.0 * path_nm / _LONGEST_NM)
             last = np.floor(2.0 * path_nm / _SHORTEST_NM)
-            stride = 1.0 + np.floor((last - first) / modes_max)
+            stride = 1.0 + np.floor((last - first) / MODES_MAX)
             more = 1 + int((last - first) / stride)
             if count + more > owner.shape[0]:
                 break
@@ -195,10 +194,10 @@ def _evaluate(boxes: int, box_lane: Any, lanes: Any, box: Any, copies: Any) -> N
 
 
 @loop
-def landmark_colours(cell: Any, subdivisions: int, steps: int, modes_max: int, table: Any, rgb: Any) -> None:
+def landmark_colours(cell: Any, subdivisions: int, steps: int, table: Any, rgb: Any) -> None:
     """Fill rgb (n, 3) with the colours of the first n mirrors of `cell`, as `_fill_lanes` takes them.
 
-    steps : Newton steps, 0 for ten halvings. modes_max : MODES_MAX. table : C̄, (k + 1, 3).
+    steps : Newton steps, 0 for ten halvings. table : C̄, (k + 1, 3).
     """
     # No array is so large that the system would hand out, and clear, new memory for it at every call.
     lanes, transmitted = np.zeros((6, 2 * _MIRRORS_AT_ONCE)), np.zeros((2 * _MIRRORS_AT_ONCE, 3))
@@ -212,7 +211,7 @@ def landmark_colours(cell: Any, subdivisions: int, steps: int, modes_max: int, t
         transmitted[:] = 0.0
         lane = 0
         while lane < 2 * mirrors:
-            lane, count = _collect(lane, 2 * mirrors, lanes, modes_max, owner, bands)
+            lane, count = _collect(lane, 2 * mirrors, lanes, owner, bands)
             _search(count, steps, bands, root, found)
             boxes = _cut(count, owner, bands, found, lanes, subdivisions, table.shape[0] - 1, box_lane, box)
             _evaluate(boxes, box_lane, lanes, box, copies)
@@ -223,7 +222,7 @@ def landmark_colours(cell: Any, subdivisions: int, steps: int, modes_max: int, t
 
 
 @loop
-def landmark_search(count: int, cell: Any, steps: int, modes_max: int) -> float:
+def landmark_search(count: int, cell: Any, steps: int) -> float:
     """Search as `landmark_colours` does, and no more; return the sum of all landmarks, for timing."""
     lanes = np.zeros((6, 2 * _MIRRORS_AT_ONCE))
     owner, bands = np.zeros(_BANDS_AT_ONCE, np.int64), np.zeros((4, _BANDS_AT_ONCE))
@@ -234,7 +233,7 @@ def landmark_search(count: int, cell: Any, steps: int, modes_max: int) -> float:
         _fill_lanes(mirrors, cell[:, first:], lanes)
         lane = 0
         while lane < 2 * mirrors:
-            lane, many = _collect(lane, 2 * mirrors, lanes, modes_max, owner, bands)
+            lane, many = _collect(lane, 2 * mirrors, lanes, owner, bands)
             _search(many, steps, bands, root, found)
             for i in range(many):
                 total += found[0, i] + found[1, i] + found[2, i]

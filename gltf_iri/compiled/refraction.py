@@ -7,7 +7,7 @@ import math
 from gltf_iri.compiled.loops import as_written
 from gltf_iri.compiled.two_floats import exact_product, exact_sum
 
-__all__ = ["normal_index_of", "normal_index_squared"]
+__all__ = ["normal_index", "normal_index_squared"]
 
 
 @as_written
@@ -27,7 +27,7 @@ def normal_index_squared(n: float, k: float, outside_ior: float, cos_theta_1: fl
 
 
 @as_written
-def normal_index_of(real: float, imag: float) -> tuple[float, float]:
+def normal_index(real: float, imag: float) -> tuple[float, float]:
     """Return Re q and Im q, both ≥ 0, of q² = real + i·imag with imag ≥ 0."""
     longer = math.sqrt(0.5 * (abs(real) + math.hypot(real, imag)))
     shorter = 0.5 * imag / longer if longer != 0.0 else 0.0

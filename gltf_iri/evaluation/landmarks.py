@@ -22,7 +22,7 @@ from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Evaluation
 from gltf_iri.evaluation.landmark_boxes import lanes_of, lossless_cells, spectral_boxes
 from gltf_iri.evaluation.mirror import Mirror
-from gltf_iri.optics.landmarks import MODES_MAX, ROOT_FINDERS, RootFinder, newton_steps
+from gltf_iri.optics.landmarks import ROOT_FINDERS, RootFinder, newton_steps
 from gltf_iri.planning.method import ParameterValue
 
 __all__ = ["cumulative_table", "evaluate_landmarks", "evaluate_landmarks_sub"]
@@ -89,5 +89,5 @@ def _compiled_colours(mirror: Mirror, white: White, subdivisions: int, steps: in
 
     rgb = np.zeros((int(np.prod(mirror.shape, dtype=np.intp)), 3))
     for part, cells in lossless_cells(mirror):
-        landmark_colours(cells, subdivisions, steps, MODES_MAX, cumulative_steps(white), rgb[part])
+        landmark_colours(cells, subdivisions, steps, cumulative_steps(white), rgb[part])
     return rgb.reshape(*mirror.shape, 3)
