@@ -15,6 +15,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.colour.gauss import gauss_panels
 from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM, colour_matching, illuminant, observer_table
 from gltf_iri.colour.spaces import XYZ_TO_REC709, White
 
@@ -91,10 +92,8 @@ def _panels(degree: int, white: White) -> tuple[Float64, Float64]:
     steps = int(np.ceil(degree * np.pi / _PANEL_RAD))
     x = np.cos(np.linspace(0.0, np.pi, steps + 1)[1:-1])
     edges_nm = np.union1d(observer_table()[:, 0], 1.0 / (_MIDDLE_PER_NM + HALF_BANDWIDTH_PER_NM * x))
-    nodes, gauss = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
-    half = 0.5 * np.diff(edges_nm)[:, None]
-    wavelength_nm = (edges_nm[:-1, None] + half + half * nodes).reshape(-1)
-    density = colour_density(wavelength_nm, white) * (half * gauss).reshape(-1, 1)
+    wavelength_nm, gauss = gauss_panels(edges_nm, _GAUSS_POINTS)
+    density = colour_density(wavelength_nm, white) * gauss[:, None]
     x = (1.0 / wavelength_nm - _MIDDLE_PER_NM) / HALF_BANDWIDTH_PER_NM
     return np.arccos(np.clip(x, -1.0, 1.0)), density  # rounding may put an end outside [−1, 1]
 

@@ -22,6 +22,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gltf_iri.colour.gauss import gauss_panels
 from gltf_iri.colour.observer import colour_matching, illuminant, observer_table
 from gltf_iri.colour.spaces import XYZ_TO_REC709, White
 from gltf_iri.errors import UsageError
@@ -146,11 +147,8 @@ def _place(opd_nm: Float64) -> tuple[NDArray[np.intp], Float64]:
 
 def _panels(density: Density) -> tuple[Float64, Float64]:
     """Return wavelengths (p,) and the normalised density times quadrature weights (p, 3)."""
-    knots = observer_table()[:, 0]
-    nodes, gauss = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
-    half = 0.5 * np.diff(knots)[:, None]
-    wavelength_nm = (knots[:-1, None] + half * (1.0 + nodes)).reshape(-1)
-    weights = density(wavelength_nm) * (half * gauss).reshape(-1, 1)
+    wavelength_nm, gauss = gauss_panels(observer_table()[:, 0], _GAUSS_POINTS)
+    weights = density(wavelength_nm) * gauss[:, None]
     total = weights.sum(axis=0)
     if not np.all(total > 0.0):
         raise UsageError("A channel of this RGB space sees nothing of this light: it has no white.")

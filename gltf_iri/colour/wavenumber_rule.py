@@ -19,6 +19,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.colour.gauss import gauss_panels
 from gltf_iri.colour.observer import observer_table
 from gltf_iri.colour.quadrature import colour_density
 from gltf_iri.colour.spaces import White
@@ -116,10 +117,7 @@ def wavenumber_rule(samples: int, white: White) -> WavenumberRule:
 
 def _fringe_colours(opd_nm: Float64, white: White) -> Float64:
     """Return the colour (d, 3) of cos(2πDν) for each D in `opd_nm` (d,)."""
-    knots = observer_table()[:, 0]
-    nodes, gauss = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
-    half = 0.5 * np.diff(knots)[:, None]
-    wavelength_nm = (knots[:-1, None] + half + half * nodes).reshape(-1)
-    density = colour_density(wavelength_nm, white) * (half * gauss).reshape(-1, 1)
+    wavelength_nm, gauss = gauss_panels(observer_table()[:, 0], _GAUSS_POINTS)
+    density = colour_density(wavelength_nm, white) * gauss[:, None]
     turns = 2.0 * np.pi / wavelength_nm
     return np.concatenate([np.cos(np.outer(d, turns)) @ density for d in np.array_split(opd_nm, 16)])
