@@ -33,7 +33,7 @@ from gltf_iri.evaluation.film import Base, Evaluation, Film, Float64
 from gltf_iri.evaluation.spectral import evaluate_spectral
 from gltf_iri.optics.film_series import film_series
 
-__all__ = ["FOURIER_TOLERANCE", "MAX_ORDERS", "THIN_OPD_NM", "evaluate_fourier"]
+__all__ = ["FOURIER_TOLERANCE", "MAX_ORDERS", "THIN_OPD_NM", "evaluate_fourier", "integrated_band"]
 
 FOURIER_TOLERANCE: Final = 1e-4
 MAX_ORDERS: Final = 64
@@ -44,7 +44,7 @@ _FIRST_ORDERS: Final = 3  # most films want no more
 
 
 def evaluate_fourier(
-    film: Film, white: White, tolerance: float = FOURIER_TOLERANCE, backend: Backend = "numpy"
+    film: Film, white: White, *, tolerance: float = FOURIER_TOLERANCE, backend: Backend = "numpy"
 ) -> Evaluation:
     """Evaluate `fourier` under `white`.
 

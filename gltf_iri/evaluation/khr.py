@@ -82,7 +82,7 @@ def iridescent_fresnel_khr(
     return np.asarray(np.where(cos2_sq < 0.0, 1.0, np.maximum(colour, 0.0)))
 
 
-def evaluate_khr(film: Film, white: White, backend: Backend = "numpy") -> Evaluation:
+def evaluate_khr(film: Film, white: White, *, backend: Backend = "numpy") -> Evaluation:
     """Evaluate `khr`; the text knows no illuminant, so the same numbers stand under either white."""
     arguments = (film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1)
     if backend == "numba":

@@ -12,10 +12,12 @@ from types import MappingProxyType
 from typing import Final, Literal
 
 from gltf_iri.backends import Backend
+from gltf_iri.colour.wavenumber_rule import SAMPLES_MAX, SAMPLES_MIN
 from gltf_iri.errors import UsageError
+from gltf_iri.optics.landmarks import ROOT_FINDERS
 
 __all__ = ["DEFAULT_METHOD", "DEFAULT_MIRROR_METHOD", "METHODS", "Domain", "Method", "Parameter"]
-__all__ += ["ParameterValue", "find_method", "method_names"]
+__all__ += ["ParameterValue", "find_method", "method_names", "parameters_text"]
 
 DEFAULT_METHOD: Final = "khr-guarded"
 DEFAULT_MIRROR_METHOD: Final = "yeh-spectral"
@@ -46,7 +48,7 @@ class Parameter:
             wanted = f"a {'whole ' if is_whole else ''}number from {self.minimum:g} to {self.maximum:g}"
             try:
                 number = float(value)
-            except ValueError:
+            except (TypeError, ValueError):
                 number = float("nan")
             if self.minimum <= number <= self.maximum and not (is_whole and number % 1.0):
                 return int(number) if is_whole else number
@@ -166,8 +168,8 @@ _FILM_METHODS = (
 _ROOT_FINDER = Parameter(
     "root_finder",
     "How landmarks are sought: Newton steps from a closed-form guess, or halvings between modes.",
-    "newton-2",
-    choices=("newton-2", "newton-1", "bisect-10"),
+    ROOT_FINDERS[0],
+    choices=ROOT_FINDERS,
 )
 
 _MIRROR_METHODS: tuple[Method, ...] = (
@@ -217,7 +219,7 @@ _MIRROR_METHODS: tuple[Method, ...] = (
         glsl_function="bragg_reflectance_bloch",
         delta_e_mean=0.04,  # 20 cells
         glsl_tables=("bloch_weights",),
-        parameters=(Parameter("samples", "Wavenumbers a polarisation.", 12, 8.0, 128.0),),
+        parameters=(Parameter("samples", "Wavenumbers a polarisation.", 12, SAMPLES_MIN, SAMPLES_MAX),),
         backends=("numpy", "numba"),
     ),
 )
@@ -228,6 +230,11 @@ METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (*_FILM_MET
 def method_names(domain: Domain) -> tuple[str, ...]:
     """Return the names of the methods for films, or of those for mirrors."""
     return tuple(method.name for method in METHODS.values() if method.domain == domain)
+
+
+def parameters_text(parameters: Mapping[str, ParameterValue]) -> str:
+    """Return `parameters` as people read them: "red_nm 605, green_nm 535"; empty where there are none."""
+    return ", ".join(f"{k} {v}" if isinstance(v, str) else f"{k} {v:g}" for k, v in parameters.items())
 
 
 def find_method(name: str, domain: Domain | None = None) -> Method:

@@ -17,7 +17,7 @@ from gltf_iri.planning.method import find_method
 def test_orders_bring_it_nearer_to_the_truth_and_its_row_says_how_near() -> None:
     film = film_set(400)
     truth = evaluate_spectral(film, "D65").rgb
-    means = [float(delta_e_2000(evaluate_bb17(film, "D65", m).rgb, truth).mean()) for m in (1, 2, 3)]
+    means = [float(delta_e_2000(evaluate_bb17(film, "D65", orders=m).rgb, truth).mean()) for m in (1, 2, 3)]
     assert means[0] > means[1] > means[2]
     assert means[2] == pytest.approx(find_method("bb17").delta_e_mean, abs=0.06)
 

@@ -56,7 +56,7 @@ def test_colours_are_those_of_the_truth(thickest_nm: float) -> None:
 @pytest.mark.parametrize(("tolerance", "white"), [(1e-3, "D65"), (1e-4, "E"), (2e-5, "D65")])
 def test_what_is_left_out_stays_below_the_tolerance(tolerance: float, white: White) -> None:
     film = published_set(120, 3000.0)
-    error = evaluate_fourier(film, white, tolerance).rgb - evaluate_spectral(film, white).rgb
+    error = evaluate_fourier(film, white, tolerance=tolerance).rgb - evaluate_spectral(film, white).rgb
     assert np.abs(error).max() <= tolerance
     assert np.abs(error).max() > 0.05 * tolerance  # nor is it so cautious that the tolerance says nothing
 
@@ -79,14 +79,18 @@ def test_no_thickness_is_the_bare_base() -> None:
 def test_colours_take_no_step_where_a_term_comes_in() -> None:
     """Ten thousand films a hair apart: the largest step is the slope's, not the tolerance's."""
     thickness_nm = np.linspace(300.0, 300.5, 10_001)
-    rgb = evaluate_fourier(Film.of(0.4, thickness_nm, 2.0, base_from_ior(0.3 + 3j)), "D65", 1e-3).rgb
+    rgb = evaluate_fourier(
+        Film.of(0.4, thickness_nm, 2.0, base_from_ior(0.3 + 3j)), "D65", tolerance=1e-3
+    ).rgb
     assert np.abs(np.diff(rgb, axis=0)).max() <= 1e-6
 
 
 def test_the_thin_end_meets_the_series() -> None:
     """On either side of the change to integration the colours are as near as the tolerance says."""
     thickness_nm = THIN_OPD_NM / (2.0 * 1.5) * np.array([1.0 - 1e-12, 1.0 + 1e-12])
-    rgb = evaluate_fourier(Film.of(1.0, thickness_nm, 1.5, base_from_ior(0.5 + 4j)), "D65", 1e-6).rgb
+    rgb = evaluate_fourier(
+        Film.of(1.0, thickness_nm, 1.5, base_from_ior(0.5 + 4j)), "D65", tolerance=1e-6
+    ).rgb
     assert np.abs(rgb[0] - rgb[1]).max() <= 1e-6
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import inspect
+
 import numpy as np
 import pytest
 
@@ -15,6 +17,16 @@ FILM = Film.of(0.8, 300.0, 1.3, base_from_ior(1.5))
 
 def test_every_method_has_an_evaluator_and_no_other() -> None:
     assert set(EVALUATORS) == set(METHODS)
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_evaluators_take_what_their_descriptors_say_with_the_same_defaults(name: str) -> None:
+    described = {each.name: each.default for each in METHODS[name].parameters}
+    if len(METHODS[name].backends) > 1:
+        described["backend"] = "numpy"
+    _, _, *chosen = inspect.signature(EVALUATORS[name]).parameters.values()
+    assert {each.name: each.default for each in chosen} == described
+    assert all(each.kind is inspect.Parameter.KEYWORD_ONLY for each in chosen)
 
 
 @pytest.mark.parametrize("name", method_names("film"))
