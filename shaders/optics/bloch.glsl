@@ -111,8 +111,10 @@ vec2 bloch_b(BlochCell cell, vec4 wave) { return vec2(wave.x * wave.w) + cell.ka
 // e^(2iNθ) from e^(2iθ), by squarings
 Complex2 bloch_power(Complex2 base, uint cells) {
     Complex2 result = Complex2(vec2(1.0), vec2(0.0));
-    for (uint rest = cells; rest > 0u; rest >>= 1u) {
+    for (uint rest = cells;;) {
         if ((rest & 1u) == 1u) result = times(result, base);
+        rest >>= 1u;
+        if (rest == 0u) break;
         base = times(base, base);
         vec2 stays = step(BLOCH_NOTHING, base.re * base.re + base.im * base.im);
         base = Complex2(stays * base.re, stays * base.im);
@@ -185,35 +187,66 @@ vec3 bloch_gap_weight(float place) {
     return below + (entry - float(row)) * (above - below);
 }
 
-// The colour of the pole in the gap of polarisation p whose b is `low` at `start` and `high` a scan beyond it
+float of_polarisation(bool is_s, vec2 both) { return is_s ? both.x : both.y; }
+
+// The colour of the pole in a polarisation's gap, where b is `before` at `start` and `here` a scan beyond it
 // ρ = (1 − r²)² τ (σ sinh χ − b_r τ) / {[1 − r² + (r sin φ₁)²(1 − τ²)] b′}, τ = tanh Nχ
-vec3 bloch_gap(BlochCell cell, int p, uint cells, vec2 grid, float start, float low, float high) {
+vec3 bloch_gap(BlochCell cell, bool is_s, uint cells, vec2 grid, float start, vec2 before, vec2 here) {
     float scan = 1.0 / cell.scans;
-    float kappa = cell.kappa[p];
+    float low = of_polarisation(is_s, before), high = of_polarisation(is_s, here);
+    float kappa = of_polarisation(is_s, cell.kappa);
     vec2 turn = 2.0 * PI * grid.y * cell.path_nm;
     float slope_cosines = turn.x + kappa * turn.y;
     float slope_sines = turn.y + kappa * turn.x;
     float place = scan * clamp(low / (low - high), 0.0, 1.0);
     vec4 wave = bloch_waves(cell, grid.x + grid.y * (start + place));
     float slope = slope_cosines * (wave.z * wave.w) - slope_sines * (wave.x * wave.y);
-    place = clamp(place - bloch_b(cell, wave)[p] / slope, 0.0, scan);
+    place = clamp(place - of_polarisation(is_s, bloch_b(cell, wave)) / slope, 0.0, scan);
     wave = bloch_waves(cell, grid.x + grid.y * (start + place));
     slope = slope_cosines * (wave.z * wave.w) - slope_sines * (wave.x * wave.y);
 
-    float t = cell.host_t[p];
-    float off = cell.imbalance[p] * wave.y;
-    float tilt = cell.host_r[p] * wave.x;
+    float t = of_polarisation(is_s, cell.host_t);
+    float off = of_polarisation(is_s, cell.imbalance) * wave.y;
+    float tilt = of_polarisation(is_s, cell.host_r) * wave.x;
     float sinh_chi = abs(off) * sqrt(t + sq(tilt));
     // e^(−2Nχ); asinh keeps the digits of a narrow gap, which λ^(2N) in float32 does not.
     float growth = sinh_chi > 0.01 ? log(sinh_chi + sqrt(1.0 + sq(sinh_chi))) : sinh_chi * (1.0 - sq(sinh_chi) / 6.0);
     float twice = 2.0 * float(cells) * growth;
     float z = exp(-min(twice, 80.0));
     float tau = twice < 0.02 ? 0.5 * twice : (1.0 - z) / (1.0 + z);
-    float x = wave.z * wave.w - cell.omega_half[p] * (wave.x * wave.y);
+    float x = wave.z * wave.w - of_polarisation(is_s, cell.omega_half) * (wave.x * wave.y);
     float signed_sinh = (x < 0.0 ? -sinh_chi : sinh_chi) + off * tilt * tau;
     float faded = 4.0 * z / sq(1.0 + z);
     float strength = sq(t) * tau * signed_sinh / ((t + sq(tilt) * faded) * slope);
     return strength * bloch_gap_weight(start + place);
+}
+
+// The colours of the poles of all gaps, of s and p. From the last gap on each pixel walks as far as its own next one:
+// software renderers compute a gap for every pixel wherever one of eight asks for it. Loops are left at their ends,
+// for else what follows the test runs once more for nobody.
+vec3 bloch_gaps(BlochCell cell, uint cells, vec2 grid, int samples) {
+    float scan = 1.0 / cell.scans;
+    float last = float(samples - 1) * cell.scans;
+    float at = 0.0;
+    vec2 before = vec2(0.0), here = bloch_b(cell, bloch_waves(cell, grid.x));
+    bvec2 is_gap = bvec2(false);
+    vec3 colour = vec3(0.0);
+    for (;;) {
+        for (;;) {
+            if (!any(is_gap)) {
+                before = here;
+                at += 1.0;
+                here = bloch_b(cell, bloch_waves(cell, grid.x + grid.y * (scan * at)));
+                is_gap = notEqual(lessThan(before, vec2(0.0)), lessThan(here, vec2(0.0)));
+            }
+            if (any(is_gap) || !(at < last)) break;
+        }
+        vec3 pole = bloch_gap(cell, is_gap.x, cells, grid, scan * (at - 1.0), before, here);
+        colour += any(is_gap) ? pole : vec3(0.0);
+        is_gap = bvec2(false, is_gap.x && is_gap.y);
+        if (!(any(is_gap) || at < last)) break;
+    }
+    return colour;
 }
 
 // rgb = ½ Σ over s and p of Σ Re Q w + Σ Im Q w′ + Σ ρ w″
@@ -233,24 +266,13 @@ vec3 bragg_reflectance_bloch(
     growth.z = fade.x < 0.1 ? fade.x * (1.0 + sq(fade.x) * (1.0 / 6.0 + sq(fade.x) / 120.0)) : growth.z;
     growth.w = fade.y < 0.1 ? fade.y * (1.0 + sq(fade.y) * (1.0 / 6.0 + sq(fade.y) / 120.0)) : growth.w;
 
-    vec3 colour = vec3(0.0);
-    vec2 before = vec2(0.0);
-    for (int k = 0; k < samples; ++k) {
+    vec3 colour = bloch_gaps(cell, number, grid, samples);
+    for (int k = 0;;) {
         vec4 wave = bloch_waves(cell, grid.x + grid.y * float(k));
-        for (float j = k > 0 ? 1.0 : cell.scans; j <= cell.scans; ++j) {
-            float start = float(k - 1) + (j - 1.0) / cell.scans;
-            float end = start + 1.0 / cell.scans;
-            vec2 here = bloch_b(cell, j < cell.scans ? bloch_waves(cell, grid.x + grid.y * end) : wave);
-            for (int p = 0; p < 2 && k > 0; ++p) {
-                if ((before[p] < 0.0) != (here[p] < 0.0)) {
-                    colour += bloch_gap(cell, p, number, grid, start, before[p], here[p]);
-                }
-            }
-            before = here;
-        }
         Complex2 sample_ = bloch_sample(cell, number, wave, growth, is_deep);
         colour += (sample_.re.x + sample_.re.y) * texelFetch(bloch_weights, ivec2(k, 0), 0).rgb +
                   (sample_.im.x + sample_.im.y) * texelFetch(bloch_weights, ivec2(k, 1), 0).rgb;
+        if (++k >= samples) break;
     }
     return 0.5 * colour;
 }
