@@ -59,12 +59,12 @@ def evaluate(
     *,
     cos_theta_1: ArrayLike,
     thickness_nm: ArrayLike | None = None,
-    film_ior: ArrayLike = 1.3,
+    film_ior: ArrayLike | None = None,
     base_f0: ArrayLike | None = None,
     base_ior: ArrayLike | None = None,
     base_nk: ArrayLike | None = None,
     base_edge_tint: ArrayLike | None = None,
-    outside_ior: ArrayLike = 1.0,
+    outside_ior: ArrayLike | None = None,
     bragg: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike, ArrayLike] | None = None,
     host_ior: ArrayLike | None = None,
     white: str = "D65",
@@ -82,13 +82,14 @@ def evaluate(
         for a mirror.
     cos_theta_1 : (...) cosine of the angle outside, in [0, 1].
     thickness_nm : (...) thickness of the film in nanometres, ≥ 0; a film needs it.
-    film_ior, outside_ior : (...) real refractive indices.
+    film_ior, outside_ior : (...) real refractive indices; without them glTF's default 1.3, and air's 1.
     base_f0 : a number or (..., 3), reflectance of the base at normal incidence under air, in [0, 1].
     base_ior : (...) real refractive index of the base.
     base_nk : (..., 2) index and extinction n, k of the base, k ≥ 0.
     base_edge_tint : (..., 3) in [0, 1], with base_f0: the metal of both colours (Gulbrandsen 2014).
     bragg : n1, n2, d1_nm, d2_nm and the number of cells of a mirror, each (...): the light meets the n1 film
-        of each cell first, and beyond the last cell lies n1.
+        of each cell first, and beyond the last cell lies n1. Complex indices n + ik, k ≥ 0, absorb; only
+        "yeh-spectral" takes them.
     host_ior : (...) real index outside the mirror; without it n1.
     white : "D65" or "E".
     backend : "auto", "numpy" or "numba" (compiled loops, the extra `fast`); the result names the one used.
@@ -98,24 +99,32 @@ def evaluate(
     method, white, backend or parameter, for two bases, for film and mirror at once, for values out of range
     and for shapes that do not broadcast; MissingCapabilityError for "numba" where it is not installed.
     """
+    from collections.abc import Iterable
+
     from gltf_iri.errors import UsageError
     from gltf_iri.evaluation.film import Film
     from gltf_iri.evaluation.mirror import Mirror
     from gltf_iri.evaluation.registry import evaluate as evaluate_subject
+    from gltf_iri.material.iridescence import Iridescence
     from gltf_iri.planning.method import DEFAULT_METHOD, DEFAULT_MIRROR_METHOD
 
     subject: Film | Mirror
     if bragg is not None:
-        if thickness_nm is not None or any(
-            b is not None for b in (base_f0, base_ior, base_nk, base_edge_tint)
-        ):
-            raise UsageError("A Bragg mirror has no film thickness and no base: give bragg or those.")
-        subject = Mirror.of(cos_theta_1, *bragg, host_ior)
+        of_films = (thickness_nm, film_ior, outside_ior, base_f0, base_ior, base_nk, base_edge_tint)
+        if any(given is not None for given in of_films):
+            raise UsageError("A Bragg mirror has no film and no base, and host_ior for what is outside.")
+        cell = tuple(bragg) if isinstance(bragg, Iterable) else ()
+        if len(cell) != 5:
+            raise UsageError("bragg wants five: n1, n2, d1_nm, d2_nm and the number of cells.")
+        subject = Mirror.of(cos_theta_1, *cell, host_ior)
     else:
-        if thickness_nm is None or host_ior is not None:
-            raise UsageError("A film wants thickness_nm, and its outside_ior instead of host_ior.")
+        if thickness_nm is None:
+            raise UsageError("A film wants thickness_nm, and a mirror bragg.")
+        if host_ior is not None:
+            raise UsageError("A film has outside_ior for what is outside, not host_ior.")
+        index = Iridescence().film_ior if film_ior is None else film_ior
         base = _base(base_f0, base_ior, base_nk, base_edge_tint)
-        subject = Film.of(cos_theta_1, thickness_nm, film_ior, base, outside_ior)
+        subject = Film.of(cos_theta_1, thickness_nm, index, base, 1.0 if outside_ior is None else outside_ior)
     default = DEFAULT_METHOD if bragg is None else DEFAULT_MIRROR_METHOD
     return evaluate_subject(
         default if method is None else method,

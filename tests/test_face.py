@@ -18,6 +18,7 @@ from gltf_iri.colour.spaces import WHITES
 from gltf_iri.errors import AssetError, UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
 from gltf_iri.evaluation.registry import evaluate as evaluate_film
+from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.planning.method import DEFAULT_METHOD, METHODS
@@ -121,9 +122,47 @@ def test_a_wrong_call_raises_usage_error(wrong):
         gltf_iri.evaluate(**({"method": "khr", "cos_theta_1": 1.0, "thickness_nm": 400.0} | wrong))
 
 
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"thickness_nm": 400.0},
+        {"film_ior": 1.3},
+        {"outside_ior": 1.0},
+        {"base_ior": 1.5},
+        {"bragg": (1.5, 1.6, 90.0, 80.0)},
+        {"bragg": (1.5, 1.6, 90.0, 80.0, 5, 1.0)},
+        {"bragg": 1.5},
+        {"bragg": (1.5, 1.6, 90.0, 80.0, 2.5)},
+        {"method": "khr"},
+        {"method": "bloch", "parameters": {"samples": None}},
+        {"method": "bloch", "bragg": (1.5, 1.6 + 0.1j, 90.0, 80.0, 5)},
+        {"backend": "gpu"},
+    ],
+    ids=str,
+)
+def test_nothing_said_of_a_mirror_is_ignored(wrong):
+    with pytest.raises(UsageError):
+        gltf_iri.evaluate(**({"cos_theta_1": 1.0, "bragg": (1.5, 1.6, 90.0, 80.0, 5)} | wrong))
+
+
+def test_a_host_is_a_mirrors_alone():
+    with pytest.raises(UsageError, match="outside_ior"):
+        gltf_iri.evaluate(cos_theta_1=1.0, thickness_nm=300.0, host_ior=1.0)
+    with pytest.raises(UsageError, match="thickness_nm"):
+        gltf_iri.evaluate(cos_theta_1=1.0)
+
+
+def test_a_mirror_is_the_same_from_tuple_and_array():
+    cell = (1.5, 1.6, 90.0, 80.0, 5)
+    seen = [gltf_iri.evaluate(cos_theta_1=0.5, bragg=given).rgb for given in (cell, np.array(cell))]
+    np.testing.assert_array_equal(*seen)
+
+
 def test_what_evaluate_takes_for_granted_is_gltfs():
     defaults = {name: p.default for name, p in inspect.signature(gltf_iri.evaluate).parameters.items()}
-    assert defaults["film_ior"] == Iridescence().film_ior
+    film = {"cos_theta_1": 0.5, "thickness_nm": 300.0}
+    said = gltf_iri.evaluate(**film, film_ior=Iridescence().film_ior, outside_ior=1.0, base_ior=Ior().ior)
+    np.testing.assert_array_equal(gltf_iri.evaluate(**film).rgb, said.rgb)
     assert gltf_iri.evaluate(cos_theta_1=1.0, thickness_nm=300.0).method == DEFAULT_METHOD
     assert defaults["white"] == WHITES[0]
 
