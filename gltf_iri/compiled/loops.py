@@ -5,8 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeVar, cast
 
-import numba
-from numba.core.codegen import get_host_cpu_features
+from gltf_iri.errors import MissingCapabilityError
+
+try:
+    import numba
+    from numba.core.codegen import get_host_cpu_features
+except (ImportError, OSError) as error:  # numba refuses a numpy that is newer than it, and LLVM may not load
+    raise MissingCapabilityError(
+        f"Compiled loops do not load ({error}): install numba anew, or take the backend numpy."
+    ) from error
 
 __all__ = ["as_written", "inline", "loop"]
 
