@@ -17,7 +17,7 @@ from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.method import METHODS, parameters_text
 
 __all__ = ["WHITE", "ColourRow", "Contestant", "colour_row", "colour_rows", "registered"]
 __all__ += ["with_ratios"]
@@ -64,7 +64,7 @@ class ColourRow:
     @property
     def label(self) -> str:
         """The method with its parameters."""
-        chosen = ", ".join(f"{name} {value}" for name, value in self.parameters.items())
+        chosen = parameters_text(self.parameters)
         return f"{self.method} ({chosen})" if chosen else self.method
 
 

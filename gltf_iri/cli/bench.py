@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from gltf_iri.backends import has_numba
 from gltf_iri.cli.common import json_option, note, print_json, print_table, progress
 from gltf_iri.errors import UsageError
 
@@ -32,6 +33,11 @@ class _Report:
     rows: list[Any] = field(default_factory=list)
     skipped: dict[str, str] = field(default_factory=dict)
     tables: list[Callable[[], None]] = field(default_factory=list)
+
+    def leave_out(self, name: str, reason: str) -> None:
+        """Note what is not measured, and why."""
+        self.skipped[name] = reason
+        note(f"{name} is left out: {reason}")
 
 
 @click.command(name="bench")
@@ -62,22 +68,50 @@ def command(
     optics = [name for name in OPTICS if name in chosen or "optics" in chosen]
     if (peers or plot) and not optics:
         raise UsageError("--peers and --plot want a workload of reflectances: optics, or one of W1 to W5.")
+    if plot:
+        _check_plot(plot)
     report = _Report()
+    if not has_numba() and list(chosen) != ["glsl"]:
+        report.leave_out("numba", "compiled loops need it (pip install 'gltf-iri[fast]')")
     for name in FILMS:
         if name in chosen:
             _films(report, name, rounds)
     if "mirrors" in chosen:
         _mirrors(report, rounds)
     if optics:
-        _optics(report, optics, peers, rounds, plot)
+        _optics(report, optics, peers, rounds)
     if "glsl" in chosen:
         _glsl(report, rounds)
     if as_json:
         rows = [row.to_json() for row in report.rows]
         print_json({"white": "D65", "machine": report.machine, "skipped": report.skipped, "rows": rows})
-        return
-    for table in report.tables:
-        table()
+    else:
+        for table in report.tables:
+            table()
+    if plot:
+        # After the figures, which a full disk must not cost.
+        _draw(plot, report)
+        if not as_json:
+            click.echo(f"The plot is {plot}.")
+
+
+def _check_plot(plot: Path) -> None:
+    """Refuse a place where no plot can be written before anything is measured."""
+    if plot.suffix.lower() != ".png":
+        raise UsageError(f"A plot is a .png file; '{plot.name}' is not.")
+    if not plot.parent.is_dir():
+        raise UsageError(f"There is no folder '{plot.parent}' to write '{plot.name}' into; make it first.")
+
+
+def _draw(plot: Path, report: _Report) -> None:
+    from gltf_iri.bench.optics import OpticsRow
+    from gltf_iri.bench.plot import plot_optics
+    from gltf_iri.whole_files import write_whole
+
+    try:
+        write_whole({plot: plot_optics([row for row in report.rows if isinstance(row, OpticsRow)])})
+    except OSError as error:
+        raise UsageError(f"'{plot}' cannot be written: {error.strerror or error}.") from error
 
 
 def _films(report: _Report, name: str, rounds: int | None) -> None:
@@ -142,9 +176,7 @@ def _add_colours(report: _Report, rows: list[ColourRow], title: str) -> None:
     report.tables.append(lambda: print_table(("workload", "method", "backend", *figures), cells, title=whole))
 
 
-def _optics(
-    report: _Report, names: Sequence[str], peers: bool, rounds: int | None, plot: Path | None
-) -> None:
+def _optics(report: _Report, names: Sequence[str], peers: bool, rounds: int | None) -> None:
     from gltf_iri.bench.timing import one_thread
 
     with one_thread() as is_pinned:
@@ -155,9 +187,9 @@ def _optics(
 
         libraries: dict[str, Any] = {}
         if peers:
-            libraries, report.skipped = load_peers()
-            for name, reason in report.skipped.items():
-                note(f"{name} is left out: {reason}")
+            libraries, missing = load_peers()
+            for name, reason in missing.items():
+                report.leave_out(name, reason)
         count = rounds or OPTICS_ROUNDS
         rows: list[OpticsRow] = []
         with progress("optics", count * len(names)) as advance:
@@ -167,11 +199,6 @@ def _optics(
         report.machine.update(machine(packages), threads=1, is_pinned_to_one_core=is_pinned)
     report.rows += rows
     report.tables.append(lambda: _print_optics(rows, report.machine))
-    if plot is not None:
-        from gltf_iri.bench.plot import plot_optics
-        from gltf_iri.whole_files import write_whole
-
-        write_whole({plot: plot_optics(rows)})
 
 
 def _print_optics(rows: Iterable[OpticsRow], machine: dict[str, Any]) -> None:

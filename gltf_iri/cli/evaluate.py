@@ -10,9 +10,10 @@ import click
 
 from gltf_iri.backends import BACKENDS
 from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
+from gltf_iri.cli.value_types import Numbers, Setting
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
-from gltf_iri.planning.method import DEFAULT_METHOD, DEFAULT_MIRROR_METHOD, METHODS
+from gltf_iri.planning.method import DEFAULT_METHOD, DEFAULT_MIRROR_METHOD, METHODS, parameters_text
 
 if TYPE_CHECKING:
     from gltf_iri.evaluation.film import Evaluation
@@ -36,66 +37,41 @@ _TEXTURES_OF_THE_BASE = frozenset(
 _LISTED_MAX = 8  # materials that an error names; `plan` lists them all
 
 
-class _Numbers(click.ParamType):  # type: ignore[type-arg]  # generic in click's newest stubs only
-    """Numbers separated by commas."""
-
-    name = "numbers"
-
-    def __init__(self, *counts: int) -> None:
-        self._counts = counts
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        if isinstance(value, tuple):
-            return value
-        try:
-            numbers = tuple(float(part) for part in str(value).split(","))
-        except ValueError:
-            self.fail(f"'{value}' is not a list of numbers separated by commas", param, ctx)
-        if self._counts and len(numbers) not in self._counts:
-            wanted = " or ".join(map(str, self._counts))
-            self.fail(f"'{value}' is not {wanted} numbers separated by commas", param, ctx)
-        return numbers
+def _parameters_help() -> str:
+    """Return the parameters of all methods, for the end of ``--help``."""
+    of_methods = (
+        f"{method.name}: {', '.join(f'{each.name} [{each.default}]' for each in method.parameters)}"
+        for method in METHODS.values()
+        if method.parameters
+    )
+    return f"Parameters for --set: {'; '.join(of_methods)}."
 
 
-class _Setting(click.ParamType):  # type: ignore[type-arg]  # generic in click's newest stubs only
-    """NAME=VALUE."""
-
-    name = "setting"
-
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
-        if isinstance(value, tuple):
-            return value
-        name, sign, text = str(value).partition("=")
-        if not (name and sign and text):
-            self.fail(f"'{value}' is not NAME=VALUE", param, ctx)
-        return name, text
-
-
-@click.command(name="evaluate")
+@click.command(name="evaluate", epilog=_parameters_help())
 @click.argument("file", required=False, type=click.Path(exists=True, dir_okay=False, path_type=Path))
 @click.option("--material", metavar="M", help="Material of FILE, by name or number; else its only film.")
 @click.option("--film-ior", type=float, help=f"Refractive index of the film [{_DEFAULT_FILM.film_ior:g}].")
 @click.option(
     "--thickness", type=float, metavar="NM", help=f"In nanometres [{_DEFAULT_FILM.thickness_max_nm:g}]."
 )
-@click.option("--base-f0", type=_Numbers(1, 3), metavar="F|R,G,B", help="Base by its reflectance under air.")
+@click.option("--base-f0", type=Numbers(1, 3), metavar="F|R,G,B", help="Base by its reflectance under air.")
 @click.option("--base-ior", type=float, help=f"Base by its real index [{_DEFAULT_BASE.ior:g}].")
-@click.option("--base-nk", type=_Numbers(2), metavar="N,K", help="Base by its complex index N + iK.")
+@click.option("--base-nk", type=Numbers(2), metavar="N,K", help="Base by its complex index N + iK.")
 @click.option(
-    "--base-edge-tint", type=_Numbers(3), metavar="R,G,B", help="With --base-f0: a metal's tint at its edge."
+    "--base-edge-tint", type=Numbers(3), metavar="R,G,B", help="With --base-f0: a metal's tint at its edge."
 )
 @click.option("--outside-ior", type=float, help=f"Index outside the film [{_DEFAULT_OUTSIDE_IOR:g}].")
 @click.option(
     "--cos",
     "cosines",
-    type=_Numbers(),
+    type=Numbers(),
     metavar="C,C,…",
     default=_DEFAULT_COSINES,
     help="Cosines [1 to 0 by 0.1].",
 )
 @click.option(
     "--bragg",
-    type=_Numbers(5),
+    type=Numbers(5),
     metavar="N1,N2,D1,D2,CELLS",
     help="Mirror instead of a film: indices, thicknesses in nanometres, n1 first.",
 )
@@ -106,7 +82,12 @@ class _Setting(click.ParamType):  # type: ignore[type-arg]  # generic in click's
     help=f"One of {', '.join(METHODS)} [{DEFAULT_METHOD}; for mirrors {DEFAULT_MIRROR_METHOD}].",
 )
 @click.option(
-    "--set", "settings", type=_Setting(), multiple=True, metavar="NAME=VALUE", help="Parameter of the method."
+    "--set",
+    "settings",
+    type=Setting(),
+    multiple=True,
+    metavar="NAME=VALUE",
+    help="Parameter of the method, see below.",
 )
 @click.option("--backend", type=click.Choice(BACKENDS), default="auto", help="What calculates [auto].")
 @click.option("--white", metavar="D65|E", default="D65", help="White of the colours [D65].")
@@ -129,7 +110,10 @@ def command(
     Either of a material of FILE, at its thickness maximum and without its textures, or of a film or a Bragg
     mirror given by options. Colours are not cut to the gamut: the truth may be negative in a channel.
     """
-    how = _How(method, white, backend, dict(settings))
+    parameters = dict(settings)
+    if len(parameters) < len(settings):
+        raise click.UsageError("--set names a parameter twice; give each once")
+    how = _How(method, white, backend, parameters)
     if file is not None:
         result = _from_file(file, material, cosines, how, layered, subject)
     elif material is not None or layered:
@@ -182,6 +166,8 @@ def _from_parameters(cosines: tuple[float, ...], how: _How, given: dict[str, Any
         names = " and ".join("--" + name.replace("_", "-") for name in bases)
         raise click.UsageError(f"{names} each describe the base: give one of them")
     f0 = given["base_f0"]
+    if given["base_edge_tint"] is not None and f0 is None:
+        raise click.UsageError("--base-edge-tint needs --base-f0, the metal's colour straight on")
     evaluation = gltf_iri.evaluate(
         how.method,
         cos_theta_1=cosines,
@@ -281,8 +267,8 @@ def _print(result: dict[str, Any]) -> None:
         columns += ["specular R", "G", "B", "base weight"]
         for row, specular, weight in zip(rows, result["specular"], result["base_weight"], strict=True):
             row += [*(f"{v:.6f}" for v in specular), f"{weight:.6f}"]
-    chosen = "".join(f", {name} {value}" for name, value in result["parameters"].items())
-    title = f"{result['method']}{chosen}, by {result['backend']}, {result['white']} white, linear Rec.709"
+    method = ", ".join(filter(None, (result["method"], parameters_text(result["parameters"]))))
+    title = f"{method}, by {result['backend']}, {result['white']} white, linear Rec.709"
     if "material" in result:
         label = material_label(result["index"], result["material"])
         low_nm, high_nm = result["thickness_range_nm"]

@@ -107,7 +107,7 @@ def _first_edges(opd_nm: float) -> Float64:
     wanted = np.maximum(1.0, np.ceil(phase_rad / _PHASE_PER_PANEL_RAD))
     if wanted.sum() > _MOST_FIRST_PANELS:
         raise UsageError(
-            f"A path difference of {opd_nm:.3g} nm has too many fringes to be summed: make the film thinner."
+            f"A path difference of {opd_nm:.3g} nm has too many fringes to be summed: take thinner films."
         )
     cuts = wanted.astype(np.intp)
     steps = [

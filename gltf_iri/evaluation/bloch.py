@@ -40,10 +40,12 @@ def evaluate_bloch(
         raise UsageError("The method 'bloch' wants cells that absorb nothing; use 'yeh-spectral'.")
     host_ior, n1, cosine = mirror.host_ior, mirror.n1.real, mirror.cos_theta_h
     films = film_optics(host_ior, n1, mirror.n2.real, mirror.d1_nm, mirror.d2_nm, cosine)
-    if np.any(films.fades_in_2 & ~films.fades_in_1):
+    is_trapped = np.broadcast_to(films.fades_in_2 & ~films.fades_in_1, mirror.shape)
+    if is_trapped.any():
+        steepest = np.broadcast_to(cosine, mirror.shape)[is_trapped].max()
         raise UsageError(
-            "The method 'bloch' wants light that runs in both films; where it is totally reflected"
-            " inside the cells, use 'yeh-spectral'."
+            "The method 'bloch' wants light that runs in both films, but it is totally reflected inside the"
+            f" cells at cos θ = {steepest:g}; use 'yeh-spectral' there."
         )
     rule = wavenumber_rule(samples, white)
     rows = BlochCell.of(films, host_optics(host_ior, n1, cosine), mirror.shape, rule.step_per_nm)

@@ -70,8 +70,8 @@ def evaluate(
     known = {parameter.name: parameter for parameter in descriptor.parameters}
     for name in parameters:
         if name not in known:
-            has = f"only {', '.join(known)}" if known else "none"
-            raise UsageError(f"The method '{method}' has no parameter '{name}' ({has}).")
+            has = f"; it has {', '.join(known)}" if known else ", nor any other"
+            raise UsageError(f"The method '{method}' has no parameter '{name}'{has}.")
     values = {name: each.checked(parameters.get(name, each.default), method) for name, each in known.items()}
     count = int(np.prod(subject.shape, dtype=np.intp))
     chosen = choose_backend(backend, count, descriptor.backends, method)

@@ -53,12 +53,24 @@ def test_a_table_names_machine_and_methods(capsys: pytest.CaptureFixture[str]) -
     assert "stack" in printed
 
 
+def test_compiled_loops_that_are_not_there_are_named(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(bench, "has_numba", lambda: False)
+    assert run(["bench", "W1", "--rounds", "1", "--json"]) == 0
+    streams = capsys.readouterr()
+    assert "gltf-iri[fast]" in json.loads(streams.out)["skipped"]["numba"]
+    assert "numba is left out" in streams.err
+
+
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
         (["nothing"], "films"),
         (["films", "--peers"], "optics"),
         (["films", "--plot", "x.png"], "optics"),
+        (["W1", "--plot", "x.txt"], ".png"),
+        (["W1", "--plot", "no-such-folder/x.png"], "no-such-folder"),
         (["films", "--rounds", "0"], "rounds"),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else None,

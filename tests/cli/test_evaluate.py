@@ -8,10 +8,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gltf_iri import backends
 from gltf_iri.cli.main import run
 from gltf_iri.evaluation.film import Film, base_from_edge_tint, base_from_f0, base_from_ior
+from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.method import method_names
+from gltf_iri.planning.method import METHODS, method_names
 
 TWO_FILMS = {
     "asset": {"version": "2.0"},
@@ -63,6 +65,41 @@ def test_edge_tint_makes_a_metal_of_the_base_colour(capsys: pytest.CaptureFixtur
     assert np.array_equal(np.array(found["rgb"]), expected)
     assert run(["evaluate", "--base-edge-tint", "1,0.5,0"]) == 2
     assert run(["evaluate", "--base-f0", "0.5", "--base-edge-tint", "1,0.5,2"]) == 2
+
+
+@pytest.mark.parametrize("method", method_names("mirror"))
+def test_options_describe_the_mirror(method: str, capsys: pytest.CaptureFixture[str]) -> None:
+    options = "--bragg 1.56,1.68,95,90,20 --host 1.1 --cos 1,0.5 --white E"
+    found = answer(capsys, *options.split(), "--method", method)
+    mirror = Mirror.of([1.0, 0.5], 1.56, 1.68, 95.0, 90.0, 20, 1.1)
+    expected = evaluate(method, mirror, white="E")
+    assert found["method"] == method
+    assert np.array_equal(np.array(found["rgb"]), expected.rgb)
+    assert found["backend"] == "numpy"
+    assert found["parameters"] == dict(expected.parameters)
+
+
+def test_a_setting_reaches_its_method(capsys: pytest.CaptureFixture[str]) -> None:
+    options = "--film-ior 1.9 --cos 1 --method bb17 --set orders=1"
+    found = answer(capsys, *options.split())
+    film = Film.of([1.0], 400.0, 1.9, base_from_ior(1.5))
+    assert found["parameters"] == {"orders": 1}
+    assert np.array_equal(np.array(found["rgb"]), evaluate("bb17", film, parameters={"orders": 1}).rgb)
+    assert not np.array_equal(np.array(found["rgb"]), evaluate("bb17", film).rgb)
+
+
+def test_help_names_every_parameter(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["evaluate", "--help"]) == 0
+    shown = capsys.readouterr().out
+    assert all(each.name in shown for method in METHODS.values() for each in method.parameters)
+
+
+def test_compiled_loops_that_are_not_there_are_asked_for(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(backends, "has_numba", lambda: False)
+    assert run(["evaluate", "--method", "fourier", "--backend", "numba"]) == 3
+    assert "gltf-iri[fast]" in capsys.readouterr().err
 
 
 def test_undefined_values_are_null_and_named(capsys: pytest.CaptureFixture[str]) -> None:
@@ -122,6 +159,24 @@ def test_table_shows_what_json_says(two_films: str, capsys: pytest.CaptureFixtur
         "--material 1",
         "--layered",
         "--thickness -1",
+        "--host 1",
+        "--base-edge-tint 1,1,1",
+        "--bragg 1.5,1.6,90,90",
+        "--bragg 1.5,1.6,90,90,0",
+        "--bragg 1.5,1.6,90,90,2.5",
+        "--bragg 1.5,nan,90,90,5",
+        "--bragg 1.5,1.6,-1,90,5",
+        "--bragg 1.5,1.6,1e9,1e9,1000000 --cos 1",
+        "--bragg 1.5,1.6,90,90,5 --thickness 100",
+        "--bragg 1.5,1.6,90,90,5 --method fourier",
+        "--bragg 1.9,1.2,90,90,5 --method bloch",
+        "--method bloch",
+        "--method bb17 --set orders",
+        "--method bb17 --set orders=4",
+        "--method bb17 --set order=1",
+        "--method bb17 --set orders=1 --set orders=2",
+        "--method spectral --backend numba",
+        "--backend gpu",
         "missing.gltf",
     ],
 )
