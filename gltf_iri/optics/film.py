@@ -25,13 +25,14 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.backends import Backend
 from gltf_iri.optics.blocks import blocks, part
+from gltf_iri.optics.film_phase import phase_factors, table, write_tangent
 from gltf_iri.optics.refraction import (
     normal_index,
     normal_index_squared,
     normal_index_squared_exact,
     normal_index_squared_real,
 )
-from gltf_iri.optics.two_floats import exact_product, reciprocal, split, square_root
+from gltf_iri.optics.two_floats import square_root
 
 __all__ = ["film_reflectance", "film_reflectance_polarised"]
 
@@ -44,7 +45,6 @@ _GRAZING: Final = 1e-40
 
 # From so many half turns on, phases are multiplied with twice float64's digits: each would cost 4e-16 rad.
 _MANY_HALF_TURNS: Final = 4.0
-_POLE: Final = 1e-17  # half turns from tan's pole, in place of none: as near as float64 comes to π/2
 _SHARP: Final = 0.05**2  # so do resonances narrower than this, squared
 
 
@@ -128,7 +128,7 @@ class _Films:
         s = of(share, y1, sign, y2, q3)
         p = of(share, y1 / (n1 * n1), sign, y2 / (n2 * n2), q3 / (n3 * n3))
         # κ/2, h² and, where a base absorbs, g: of s, then of p
-        self._coefficients = _table(*s, *p)
+        self._coefficients = table(*s, *p)
 
         digits: tuple[Any, ...] = (q2,)
         most = [np.max(a, initial=0.0) for a in (thickness, n1, n2)]
@@ -137,7 +137,7 @@ class _Films:
         if half_turns > _MANY_HALF_TURNS or self._is_sharp:
             exact, low = normal_index_squared_exact(n2, n1, c1)
             digits = square_root(np.maximum(sign * exact, _GRAZING**2), sign * low)
-        self._by_angle, self._by_wavelength = _phase_factors(digits, 2.0 * thickness, wavelength)
+        self._by_angle, self._by_wavelength = phase_factors(digits, 2.0 * thickness, wavelength)
 
     def reflectances(self, *, mean: bool) -> list[Float64]:
         """Return [(R_s + R_p)/2] or [R_s, R_p], each of `shape`."""
@@ -154,15 +154,14 @@ class _Films:
             np.copyto(work[:rows], part(self._coefficients, piece, axes))
             sign = None if self._sign is None else part(self._sign, piece, axes)[0]
             a, b = (part(each, piece, axes) for each in (self._by_angle, self._by_wavelength))
-            _write_tangent(a, b, sign, self._is_sharp, *work[rows:])
+            write_tangent(a, b, sign, self._is_sharp, *work[rows:])
             s, p, both = _entering(work[:rows], work[rows], sign, work[rows + 1])
             for answer, half, other in zip(pieces, (s, p), (p if mean else s, p), strict=False):
                 half += other
                 half *= both
                 np.subtract(1.0, half, out=answer)
-                np.maximum(
-                    answer, 0.0, out=answer
-                )  # a last bit below is rounding, where nothing is reflected
+                # A last bit below 0 is rounding, where nothing is reflected.
+                np.maximum(answer, 0.0, out=answer)
         return [answer.reshape(self.shape) for answer in answers]
 
 
@@ -189,58 +188,6 @@ def _is_sharp(_: Any, h_squared: Any, g: Any = 0.0) -> bool:
     return bool(np.any((h_squared < _SHARP * (wide * wide)) | (h_squared * _SHARP > 1.0)))
 
 
-def _phase_factors(q2: tuple[Any, ...], twice_nm: Float64, wavelength: Float64) -> tuple[Float64, Float64]:
-    """Return what `_write_tangent` multiplies: of the angle and the wavelength, the thickness with either."""
-    is_exact = len(q2) > 1
-    per_nm = reciprocal(wavelength) if is_exact else (1.0 / wavelength,)
-    # The thickness goes with the angles, unless that would make a whole grid of them.
-    together = np.broadcast_shapes(np.shape(q2[0]), twice_nm.shape)
-    if np.prod(together) <= max(np.size(q2[0]), wavelength.size):
-        q2 = _times(q2, twice_nm)
-    else:
-        per_nm = _times(per_nm, twice_nm)
-    if is_exact:
-        return _table(*_halves(*q2)), _table(*_halves(*per_nm))
-    return _table(np.pi * q2[0]), _table(per_nm[0])
-
-
-def _write_tangent(
-    a: Float64, b: Float64, sign: Float64 | None, is_sharp: bool, t: Float64, *spare: Float64
-) -> None:
-    """Write tan β into t, tanh where `sign` is negative, for one factor each or three: `_phase_factors`."""
-    rest, whole = spare
-    np.multiply(a[0], b[0], out=t)
-    if len(a) == 1:
-        fading = None if sign is None else np.tanh(t)
-        np.tan(t, out=t)
-    else:
-        np.multiply(a[0], b[1], out=rest)
-        rest += np.multiply(a[1], b[2], out=whole)
-        fading = None if sign is None else np.tanh(np.pi * (t + rest))
-        t -= np.rint(t, out=whole)
-        if is_sharp:
-            _write_tangent_to_its_pole(t, rest)
-        else:
-            t += rest
-            np.tan(np.multiply(t, np.pi, out=t), out=t)
-    if sign is not None and fading is not None:
-        np.copyto(t, fading, where=sign < 0.0)
-
-
-def _write_tangent_to_its_pole(t: Float64, rest: Float64) -> None:
-    """Write tan π(t + rest) into t, |t| ≤ ½, with all digits next to the pole; overwrites its arguments.
-
-    From a quarter on, the cotangent of what is left to a half, which as a difference is exact.
-    """
-    is_steep = np.abs(t) > 0.25
-    np.copyto(t, np.copysign(0.5, t) - t, where=is_steep)
-    np.negative(rest, out=rest, where=is_steep)
-    t += rest
-    np.copyto(t, _POLE, where=is_steep & (t == 0.0))
-    np.tan(np.multiply(t, np.pi, out=t), out=t)
-    np.divide(1.0, t, out=t, where=is_steep)
-
-
 def _entering(
     coefficients: Float64, t: Float64, sign: Float64 | None, square: Float64
 ) -> tuple[Float64, Float64, Float64]:
@@ -261,23 +208,3 @@ def _entering(
         square *= sign
     square += 1.0
     return s[0], p[0], square
-
-
-def _times(number: tuple[Any, ...], factor: Any) -> tuple[Any, ...]:
-    if len(number) == 1:
-        return (number[0] * factor,)
-    product, low = exact_product(number[0], factor)
-    return product, low + number[1] * factor
-
-
-def _halves(value: Any, low: Any) -> tuple[Any, Any, Any]:
-    """Return the first 26 bits of value + low, the rest, and both together."""
-    first, second = split(value)
-    return first, second + low, value
-
-
-def _table(*rows: Any) -> Float64:
-    table = np.zeros((len(rows), *np.broadcast_shapes(*(np.shape(row) for row in rows))))
-    for i, row in enumerate(rows):
-        table[i] = row
-    return table
