@@ -5,10 +5,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 
-import moderngl
 import numpy as np
 import pytest
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
+from single_precision import rounded
 
 from gltf_iri.bench.mirror_set import low_contrast_set, mirror_set
 from gltf_iri.colour.quadrature import colour_rule
@@ -22,16 +22,6 @@ from gltf_iri.tolerances import GLSL_MIRROR_COLOUR_MAX_ABS, GLSL_OPTICS_MAX_ABS
 Float64 = NDArray[np.float64]
 
 COUNT = 5000
-
-
-@pytest.fixture
-def probe(gl_context: moderngl.Context) -> Probe:
-    return Probe(gl_context)
-
-
-def rounded(values: ArrayLike) -> Float64:
-    """`values` as float32 sees them, in float64."""
-    return np.asarray(values, dtype=np.float32).astype(np.float64)
 
 
 def reflectance(probe: Probe, arguments: list[Float64]) -> Float64:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from single_precision import rounded
 
 from gltf_iri.evaluation.film import Film, base_from_ior
 from gltf_iri.evaluation.granier_heidrich import evaluate_granier_heidrich
@@ -17,10 +18,6 @@ FILE = "optics/granier_heidrich.glsl"
 
 Float64 = NDArray[np.float64]
 G = np.random.default_rng(2003)
-
-
-def rounded(values: Float64) -> Float64:
-    return np.asarray(np.asarray(values, dtype=np.float32), dtype=np.float64)
 
 
 def unit(spread: float) -> Float64:

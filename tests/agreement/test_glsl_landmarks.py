@@ -5,10 +5,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 
-import moderngl
 import numpy as np
 import pytest
 from numpy.typing import ArrayLike, NDArray
+from single_precision import rounded
 
 from gltf_iri.bench.mirror_set import mirror_set
 from gltf_iri.evaluation.mirror import Mirror
@@ -29,16 +29,6 @@ SETTINGS: list[tuple[str, dict[str, ParameterValue]]] = [
     ("landmarks-sub", {}),
     ("landmarks-sub", {"root_finder": "newton-1", "subdivisions": 5}),
 ]
-
-
-@pytest.fixture
-def probe(gl_context: moderngl.Context) -> Probe:
-    return Probe(gl_context)
-
-
-def rounded(values: ArrayLike) -> NDArray[np.float64]:
-    """`values` as float32 sees them, in float64."""
-    return np.asarray(values, dtype=np.float32).astype(np.float64)
 
 
 def mirror_of(*arguments: ArrayLike) -> Mirror:
