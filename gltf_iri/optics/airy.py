@@ -24,7 +24,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.optics.modulus import squared_modulus
-from gltf_iri.optics.refraction import normal_index, normal_index_squared
+from gltf_iri.optics.refraction import normal_index, normal_index_squared, normal_index_squared_exact
+from gltf_iri.optics.two_floats import exact_product, reciprocal, square_root
 
 __all__ = ["FilmPower", "film_power"]
 
@@ -61,17 +62,34 @@ def film_power(
     n1 = np.asarray(outside_ior, dtype=np.float64)
     n2, n3 = (np.asarray(a, dtype=np.complex128) for a in (film_index, base_index))
     c1 = np.maximum(np.asarray(cos_theta_1, dtype=np.float64), _GRAZING)
-    path = 2.0 * np.asarray(thickness_nm, dtype=np.float64) / np.asarray(wavelength_nm, dtype=np.float64)
+    twice_nm = 2.0 * np.asarray(thickness_nm, dtype=np.float64)
+    wavelength = np.asarray(wavelength_nm, dtype=np.float64)
     q2, q3 = (normal_index(normal_index_squared(n, n1, c1)) for n in (n2, n3))
     q2 = np.where(np.abs(q2) < _GRAZING, _GRAZING, q2)
-    half_turns = path * q2.real
-    # Whole half turns, which only change the sign of the waves inside, come off before π is multiplied in.
-    phase = np.pi * ((half_turns - np.rint(half_turns)) + 1j * (path * q2.imag))
+    phase = np.pi * (
+        _half_turns(n2, q2, n1, c1, twice_nm, wavelength) + 1j * (twice_nm / wavelength * q2.imag)
+    )
     y1 = n1 * c1
     with np.errstate(invalid="ignore"):  # numpy warns where NaN divides complex numbers: NaN in is NaN out
         s = _shares(y1, q2, q3, phase)
         p = _shares(y1 / (n1 * n1), q2 / (n2 * n2), q3 / (n3 * n3), phase)
     return FilmPower(s[0], p[0], s[1], p[1], s[2], p[2])
+
+
+def _half_turns(n2: Any, q2: Any, n1: Any, c1: Any, twice_nm: Any, wavelength: Any) -> Any:
+    """Return β′/π less the whole half turns, which only change the sign of the waves inside.
+
+    With twice float64's digits where the film absorbs nothing: there thick films have resonances as narrow as
+    the last bit of so many turns.
+    """
+    squared, squared_low = normal_index_squared_exact(n2.real, n1, c1)
+    root, root_low = square_root(np.maximum(squared, _GRAZING**2), squared_low)
+    is_running = (n2.imag == 0.0) & (squared > 0.0)
+    q, q_low = np.where(is_running, root, q2.real), np.where(is_running, root_low, 0.0)
+    per_nm, per_nm_low = reciprocal(wavelength)
+    path, path_low = exact_product(twice_nm, per_nm)
+    turns, low = exact_product(q, path)
+    return (turns - np.rint(turns)) + (low + (q * (path_low + twice_nm * per_nm_low) + q_low * path))
 
 
 def _shares(y1: Any, y2: Any, y3: Any, phase: Any) -> tuple[Float64, Float64, Float64]:
