@@ -173,6 +173,7 @@ def _envelope(sizes: Float64, wavelength_nm: Float64, weights: Float64) -> tuple
     # One cell late, so that a line between two values is above both.
     envelope = np.concatenate([from_here_on[:1], from_here_on])
     envelope[-1] = 0.0
-    far_nm = np.linspace(END_NM - FADE_NM, 4.0 * END_NM, 97)
-    far = np.abs(np.exp(2j * np.pi * far_nm[:, None] / wavelength_nm) @ weights).max()
+    # |Ŝ| changes over 640 nm, the inverse of the visible wavenumbers: a hundredth covers what lies between.
+    far_nm = np.linspace(END_NM - FADE_NM, 4.0 * END_NM, 481)
+    far = 1.01 * np.abs(np.exp(2j * np.pi * far_nm[:, None] / wavelength_nm) @ weights).max()
     return envelope, float(max(far, from_here_on[-int(FADE_NM / STEP_NM)]))

@@ -107,6 +107,20 @@ def test_the_envelope_bounds_all_that_follows(white: White) -> None:
     assert table.bound(END_NM) == 0.0
 
 
+@pytest.mark.parametrize("white", ["D65", "E"])
+def test_what_the_tables_end_leaves_out_is_bounded(white: White) -> None:
+    """Under E kinks a nanometre apart make Ŝ rise again, to its greatest beyond the end at 0.19 mm."""
+    beyond_nm = np.concatenate(
+        [np.linspace(END_NM - FADE_NM, 1.1 * END_NM, 80), np.linspace(188e3, 190e3, 40)]
+    )
+    nodes, gauss = np.polynomial.legendre.leggauss(12)
+    wavelength_nm = (np.arange(360.0, 830.0)[:, None] + 0.5 * (1.0 + nodes)).reshape(-1)
+    density = colour_density(wavelength_nm, white) * np.tile(0.5 * gauss, 470)[:, None]
+    size = np.abs(np.exp(2j * np.pi * beyond_nm[:, None] / wavelength_nm) @ density).max()
+    beyond = sensitivity_table(white).beyond
+    assert 0.9 * beyond <= size <= beyond
+
+
 def test_beyond_the_reach_fringes_are_as_weak_as_was_asked() -> None:
     """Under D65 below 0.02 from 8 µm and below 0.005 from 20 µm on; the same rule in any white."""
     table = sensitivity_table("D65")
