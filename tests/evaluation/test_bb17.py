@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 import pytest
 
@@ -20,6 +22,16 @@ def test_orders_bring_it_nearer_to_the_truth_and_its_row_says_how_near() -> None
     means = [float(delta_e_2000(evaluate_bb17(film, "D65", orders=m).rgb, truth).mean()) for m in (1, 2, 3)]
     assert means[0] > means[1] > means[2]
     assert means[2] == pytest.approx(find_method("bb17").delta_e_mean, abs=0.06)
+
+
+def test_each_order_asked_for_is_one_fringe_more() -> None:
+    """None leaves the interfaces' mean, a spectrum without fringes, which is grey; each one adds less."""
+    film = Film.of(0.8, np.linspace(100.0, 700.0, 31), 1.5, base_from_ior(2.2))
+    rgb = [evaluate_bb17(film, "D65", orders=m).rgb for m in range(5)]
+    assert np.ptp(rgb[0]) <= 1e-14
+    steps = [np.abs(more - less).max() for less, more in itertools.pairwise(rgb)]
+    assert steps[0] > 0.05
+    assert all(later < earlier for earlier, later in itertools.pairwise(steps))
 
 
 def test_its_white_is_e() -> None:

@@ -31,6 +31,7 @@ STACKS: dict[str, tuple[list[object], list[object]]] = {
     "total reflection at the exit": ([1.5, 2.0, 1.0], [100.0]),
     "metals": ([1.0, 1.46, 0.05 + 3.5j, 1.46, 0.05 + 3.5j, 1.5], [100.0, 20.0, 150.0, 20.0]),
     "faint absorption": ([1.0, 1.5 + 1e-9j, 2.0], [3000.0]),
+    "exit that absorbs": ([1.0, 1.4, 0.2 + 3.4j], [250.0]),
     "opaque": ([1.0, 1.5 + 0.1j, 1.5], [550e4]),
     "dispersive": (
         [1.0, 1.5 + 4000.0 / WAVELENGTHS_NM**2, 0.2 + 1j * WAVELENGTHS_NM / 150.0, 1.5],
