@@ -12,9 +12,7 @@ from types import MappingProxyType
 from typing import Final, Literal
 
 from gltf_iri.backends import Backend
-from gltf_iri.colour.wavenumber_rule import SAMPLES_MAX, SAMPLES_MIN
 from gltf_iri.errors import UsageError
-from gltf_iri.optics.landmarks import ROOT_FINDERS
 
 __all__ = ["DEFAULT_METHOD", "DEFAULT_MIRROR_METHOD", "METHODS", "Domain", "Method", "Parameter"]
 __all__ += ["ParameterValue", "find_method", "method_names", "parameters_text"]
@@ -165,11 +163,13 @@ _FILM_METHODS = (
     ),
 )
 
+# Bounds and words of the formulas stand here a second time, and a test holds both equal: the formulas import
+# numpy, for which `--help` cannot wait.
 _ROOT_FINDER = Parameter(
     "root_finder",
     "How landmarks are sought: Newton steps from a closed-form guess, or halvings between modes.",
-    ROOT_FINDERS[0],
-    choices=ROOT_FINDERS,
+    "newton-2",
+    choices=("newton-2", "newton-1", "bisect-10"),
 )
 
 _MIRROR_METHODS: tuple[Method, ...] = (
@@ -219,7 +219,7 @@ _MIRROR_METHODS: tuple[Method, ...] = (
         glsl_function="bragg_reflectance_bloch",
         delta_e_mean=0.04,  # 20 cells
         glsl_tables=("bloch_weights",),
-        parameters=(Parameter("samples", "Wavenumbers a polarisation.", 12, SAMPLES_MIN, SAMPLES_MAX),),
+        parameters=(Parameter("samples", "Wavenumbers a polarisation.", 12, 8.0, 128.0),),
         backends=("numpy", "numba"),
     ),
 )

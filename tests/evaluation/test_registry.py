@@ -7,9 +7,11 @@ import inspect
 import numpy as np
 import pytest
 
+from gltf_iri.colour.wavenumber_rule import SAMPLES_MAX, SAMPLES_MIN
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
 from gltf_iri.evaluation.registry import EVALUATORS, evaluate
+from gltf_iri.optics.landmarks import ROOT_FINDERS
 from gltf_iri.planning.method import METHODS, method_names
 
 FILM = Film.of(0.8, 300.0, 1.3, base_from_ior(1.5))
@@ -27,6 +29,12 @@ def test_evaluators_take_what_their_descriptors_say_with_the_same_defaults(name:
     _, _, *chosen = inspect.signature(EVALUATORS[name]).parameters.values()
     assert {each.name: each.default for each in chosen} == described
     assert all(each.kind is inspect.Parameter.KEYWORD_ONLY for each in chosen)
+
+
+def test_bounds_and_words_are_those_of_the_formulas() -> None:
+    described = {each.name: each for method in METHODS.values() for each in method.parameters}
+    assert described["root_finder"].choices == ROOT_FINDERS
+    assert (described["samples"].minimum, described["samples"].maximum) == (SAMPLES_MIN, SAMPLES_MAX)
 
 
 @pytest.mark.parametrize("name", method_names("film"))
