@@ -172,7 +172,9 @@ def _add_colours(report: _Report, rows: list[ColourRow], title: str) -> None:
         for row in rows
     ]
     reference = " or ".join(dict.fromkeys(row.ratio_to for row in rows if row.ratio_to))
-    whole = f"{title}, D65 white, CIEDE2000" + (f"; ratio of times to {reference}" if reference else "")
+    whole = f"{title}, D65 white, CIEDE2000" + (
+        f"; ratio of times to {reference} by the same backend" if reference else ""
+    )
     report.tables.append(lambda: print_table(("workload", "method", "backend", *figures), cells, title=whole))
 
 

@@ -18,6 +18,7 @@ from gltf_iri.planning.method import DEFAULT_METHOD, DEFAULT_MIRROR_METHOD, METH
 if TYPE_CHECKING:
     from gltf_iri.evaluation.film import Evaluation
     from gltf_iri.material.material import Material
+    from gltf_iri.planning.method import Parameter
 
 __all__ = ["command"]
 
@@ -38,13 +39,24 @@ _LISTED_MAX = 8  # materials that an error names; `plan` lists them all
 
 
 def _parameters_help() -> str:
-    """Return the parameters of all methods, for the end of ``--help``."""
-    of_methods = (
-        f"{method.name}: {', '.join(f'{each.name} [{each.default}]' for each in method.parameters)}"
+    """Return the parameters of all methods, a line each, for the end of ``--help``."""
+    lines = [
+        f"  {method.name:13}  {each.name:12}  {_allowed(each)} [{_shown(each.default)}]"
         for method in METHODS.values()
-        if method.parameters
-    )
-    return f"Parameters for --set: {'; '.join(of_methods)}."
+        for each in method.parameters
+    ]
+    # Click leaves the lines of a paragraph alone that \b begins.
+    return "\n".join(("\b", "Parameters for --set:", *lines))
+
+
+def _shown(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:g}"
+
+
+def _allowed(parameter: Parameter) -> str:
+    if parameter.choices:
+        return ", ".join(parameter.choices)
+    return f"{parameter.minimum:g} to {parameter.maximum:g}"
 
 
 @click.command(name="evaluate", epilog=_parameters_help())
