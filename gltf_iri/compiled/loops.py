@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable
+from functools import cache
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from gltf_iri.errors import MissingCapabilityError
@@ -26,10 +29,28 @@ _OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
 
 def loop(function: Function) -> Function:
     """Compile a function that runs over arrays; its machine code is kept on disk for the next start."""
+    chosen = numba.config.CACHE_DIR
+    numba.config.CACHE_DIR = _kept_in(chosen)
     try:
         return cast(Function, numba.njit(cache=True, **_OPTIONS)(function))
     except RuntimeError:  # no folder for it can be written: compile anew at each start
         return cast(Function, numba.njit(**_OPTIONS)(function))
+    finally:
+        numba.config.CACHE_DIR = chosen
+
+
+@cache
+def _kept_in(chosen: str) -> str:
+    """Return a folder for machine code, within the user's `chosen` one, that no other state of this one has.
+
+    By itself numba compiles a loop anew where its own file has changed, but not where another has that it
+    inlines: after an upgrade, or an edit, it would go on with the old numbers.
+    """
+    here = Path(__file__).parent
+    sources = hashlib.sha256()
+    for file in sorted(here.glob("*.py")):
+        sources.update(file.read_bytes())
+    return str(Path(chosen or here / "__pycache__") / f"loops-{sources.hexdigest()[:16]}")
 
 
 def inline(function: Function) -> Function:

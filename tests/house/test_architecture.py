@@ -50,6 +50,7 @@ OPENERS = {
     "bench/machine.py",  # what Linux says of its processor
     "rendering/source.py",  # the program's own shaders
     "colour/observer.py",  # the program's own tables
+    "compiled/loops.py",  # the sources of compiled loops, to know their machine code by
     "samples/collection.py",  # looks at the index of an earlier collection
     "cli/main.py",  # the null device
     "generate.py",  # the checkout that it runs in
