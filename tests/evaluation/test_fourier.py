@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gltf_iri.backends import has_numba
+from gltf_iri.backends import Backend, has_numba
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Base, Film, base_from_dispersion, base_from_f0, base_from_ior
@@ -74,6 +74,13 @@ def test_no_thickness_is_the_bare_base() -> None:
     bare = Film.of(cosine, 0.0, 1.0, base_from_ior(np.array([1.5, 0.2 + 3j, 2.0])))
     difference = evaluate_fourier(film, "D65").rgb - evaluate_spectral(bare, "D65").rgb
     assert np.abs(difference).max() <= 1e-9
+
+
+@pytest.mark.parametrize("backend", ["numpy", pytest.param("numba", marks=needs_numba)])
+@pytest.mark.parametrize("index", [0.0, 1e-30, 0.0 + 1e-30j])
+def test_a_base_without_index_reflects_everything(index: complex, backend: Backend) -> None:
+    film = Film.of(np.array([0.0, 0.3, 1.0]), 300.0, 1.4, base_from_ior(index))
+    assert np.array_equal(evaluate_fourier(film, "D65", backend=backend).rgb, np.ones((3, 3)))
 
 
 def test_colours_take_no_step_where_a_term_comes_in() -> None:
