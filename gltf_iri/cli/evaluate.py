@@ -291,7 +291,7 @@ def _print(result: dict[str, Any]) -> None:
         left_out = ", ".join(result["textures_left_out"])
         note(f"The base is that of the material's factors alone, without {left_out}.")
     for case, where in result["undefined"].items():
-        note(f"the text leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")
+        note(f"the method leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")
 
 
 def _or(value: float | None, default: float) -> float:

@@ -203,7 +203,7 @@ class Evaluation:
 
     rgb : (..., 3) linear Rec.709, not gamut-clamped.
     backend : "numpy", "numba", or the OpenGL renderer.
-    undefined : for each undefined case of the method's text that occurred, the mask (...) of rows it touched.
+    undefined : for each case that occurred and that the method leaves undefined, the mask (...) of its rows.
     parameters : what the method's parameters were.
     """
 

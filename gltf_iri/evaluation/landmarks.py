@@ -37,7 +37,7 @@ def evaluate_landmarks(
 ) -> Evaluation:
     """Return the colour from one box between two landmarks; raises UsageError for cells that absorb."""
     rgb = _colours(mirror, white, 1, cast(RootFinder, root_finder), backend)
-    return Evaluation(rgb, "landmarks", white)
+    return Evaluation(rgb, "landmarks", white, undefined=_undefined(mirror))
 
 
 def evaluate_landmarks_sub(
@@ -50,7 +50,7 @@ def evaluate_landmarks_sub(
 ) -> Evaluation:
     """Return the colour from boxes cut into max(1, `subdivisions` − m); errors as `evaluate_landmarks`."""
     rgb = _colours(mirror, white, subdivisions, cast(RootFinder, root_finder), backend)
-    return Evaluation(rgb, "landmarks-sub", white)
+    return Evaluation(rgb, "landmarks-sub", white, undefined=_undefined(mirror))
 
 
 def cumulative_table(white: White, **parameters: ParameterValue) -> NDArray[np.float32]:
@@ -82,6 +82,18 @@ def _colours(
         np.add.at(transmitted, lane, boxes.transmittance[:, None] * (high - low))
     rgb = 1.0 - 0.5 * (transmitted[: count // 2] + transmitted[count // 2 :])
     return np.asarray(rgb.reshape(*mirror.shape, 3))
+
+
+def _undefined(mirror: Mirror) -> dict[str, NDArray[np.bool_]]:
+    """Return where light runs in n1 and fades in n2: such a cell has no modes, and is taken to be white."""
+    tangential = mirror.host_ior * np.sqrt((1.0 - mirror.cos_theta_h) * (1.0 + mirror.cos_theta_h))
+    fades = (tangential > mirror.n2.real) & (tangential <= mirror.n1.real)
+    mask = np.broadcast_to(fades, mirror.shape)
+    return (
+        {"total reflection inside a cell has no landmarks and is taken to be white": mask}
+        if mask.any()
+        else {}
+    )
 
 
 def _compiled_colours(mirror: Mirror, white: White, subdivisions: int, steps: int) -> Float64:

@@ -180,3 +180,13 @@ def test_absorbing_cells_are_refused_in_a_sentence() -> None:
     mirror = replace(mirror_set(5), n2=np.asarray(1.5 + 0.1j))
     with pytest.raises(UsageError, match="lossless"):
         evaluate("landmarks-sub", mirror)
+
+
+@pytest.mark.parametrize("method", ["landmarks", "landmarks-sub"])
+def test_total_reflection_inside_a_cell_is_named_and_not_passed_over(method: str) -> None:
+    """Light fades in n2 alone at the first angle; at the second it runs in both films."""
+    evaluation = evaluate(method, Mirror.of([0.7, 0.9], 1.9, 1.2, 95.0, 90.0, 20))
+    ((case, mask),) = evaluation.undefined.items()
+    assert "no landmarks" in case
+    assert mask.tolist() == [True, False]
+    assert np.all(evaluation.rgb[0] == 1.0)
