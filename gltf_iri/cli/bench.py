@@ -21,7 +21,7 @@ __all__ = ["FILMS", "OPTICS", "command"]
 
 OPTICS = ("W1", "W2", "W3", "W4", "W5", "lossy-film", "tir-film", "lossy-cells", "tir-cells")
 FILMS = ("films", "films-3um")
-_NAMES = (*FILMS, "mirrors", "optics", *OPTICS, "glsl")
+_NAMES = (*FILMS, "dispersion", "mirrors", "optics", *OPTICS, "glsl")
 _DEFAULT = ("films", "mirrors")
 
 
@@ -57,7 +57,8 @@ def command(
     """Measure the workloads called NAME; without a name, films and mirrors.
 
     films, films-3um: 1,200 random dielectric films up to 800 nm, or 3 µm, each method against the converged
-    spectral truth under D65. mirrors: the same for Bragg mirrors of 5 to 200 cells.
+    spectral truth under D65. mirrors: the same for Bragg mirrors of 5 to 200 cells. dispersion: what one
+    index a channel costs where the media are real ones.
 
     optics: reflectances of films, mirrors and stacks on one thread, their error against 50 digits; it is the
     sum of W1 to W5, lossy-film, tir-film, lossy-cells and tir-cells, each of which is a NAME too.
@@ -71,11 +72,13 @@ def command(
     if plot:
         _check_plot(plot)
     report = _Report()
-    if not has_numba() and list(chosen) != ["glsl"]:
+    if not has_numba() and not set(chosen) <= {"glsl", "dispersion"}:
         report.leave_out("numba", "compiled loops need it (pip install 'gltf-iri[fast]')")
     for name in FILMS:
         if name in chosen:
             _films(report, name, rounds)
+    if "dispersion" in chosen:
+        _dispersion(report)
     if "mirrors" in chosen:
         _mirrors(report, rounds)
     if optics:
@@ -122,6 +125,14 @@ def _films(report: _Report, name: str, rounds: int | None) -> None:
     with one_thread(), progress(name, count) as advance:
         rows = measure_films(name, count, advance)
     _add_colours(report, rows, "Films against spectral truth")
+
+
+def _dispersion(report: _Report) -> None:
+    from gltf_iri.bench.dispersion_cost import DISPERSIVE_PAIRS, measure_dispersion
+
+    with progress("dispersion", len(DISPERSIVE_PAIRS)) as advance:
+        rows = measure_dispersion(advance)
+    _add_colours(report, rows, "One index a channel against indices by wavelength")
 
 
 def _mirrors(report: _Report, rounds: int | None) -> None:

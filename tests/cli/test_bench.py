@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from gltf_iri.bench import dispersion_cost
 from gltf_iri.bench.film_set import film_set
 from gltf_iri.bench.films import FILM_WORKLOADS
 from gltf_iri.bench.workloads import WORKLOADS
@@ -38,6 +39,16 @@ def test_rows_of_optics_keep_the_contract(capsys: pytest.CaptureFixture[str], tm
     assert all(row["is_correct"] for row in report["rows"])
     assert report["machine"]["threads"] == 1
     assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_gold_costs_one_index_a_channel_more_than_glass_does(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(dispersion_cost, "DISPERSIVE_PAIRS", (("SiO2", "gold"), ("SiO2", "N-BK7")))
+    assert run(["bench", "dispersion", "--json"]) == 0
+    gold, glass = json.loads(capsys.readouterr().out)["rows"]
+    assert (gold["workload"], glass["workload"]) == ("SiO2 on gold", "SiO2 on N-BK7")
+    assert gold["delta_e_mean"] > 10.0 * glass["delta_e_mean"] > 0.0
 
 
 def test_names_are_those_of_the_workloads() -> None:
