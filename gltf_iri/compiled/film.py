@@ -20,8 +20,10 @@ __all__ = ["film_reflectance"]
 
 Float64 = NDArray[np.float64]
 
+# As in optics/film.py
 _NO_INDEX = 1e-150
 _GRAZING = 1e-40
+
 _VECTOR = 8  # numbers that the widest vector instructions take at once; rows are padded to full vectors
 
 

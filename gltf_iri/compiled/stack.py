@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.compiled.exponential import LN2_HIGH, LN2_LOW, LOG2_E, expm1_reduced
 from gltf_iri.compiled.loops import inline, loop
 from gltf_iri.compiled.sincos import sincos_turns
 
@@ -26,10 +27,6 @@ _L: Final = 128  # lanes: evaluations side by side
 _SCALE_EVERY: Final = 4
 _NOTHING: Final = 1e-300
 
-# ln 2 in two parts, the first of 32 bits, so that whole multiples of it come off without rounding
-_LOG2_E: Final = 1.4426950408889634
-_LN2_HIGH: Final = 0.6931471803691238
-_LN2_LOW: Final = 1.9082149292705877e-10
 _FADED: Final = 708.0  # e^{−708} stands for anything less: beyond, float64 loses digits
 
 # Rows of the table of media, for each layer: q, 1/q, n² and 1/n², each as real and imaginary part.
@@ -167,18 +164,12 @@ def _fading_wave(
         twice = 4.0 * np.pi * path[i] * medium[(_Q + 1) * _L + i]
         twice = _FADED if twice > _FADED else twice
         wave[i] = twice
-        bits[i] = np.int64(1023.0 - np.rint(_LOG2_E * twice)) << 52  # a power of two, by its exponent
+        bits[i] = np.int64(1023.0 - np.rint(LOG2_E * twice)) << 52  # a power of two, by its exponent
     powers_of_two = bits.view(np.float64)
     for i in range(count):
-        whole = np.rint(_LOG2_E * wave[i])
-        r = (whole * _LN2_HIGH - wave[i]) + whole * _LN2_LOW
-        # e^r − 1, cut after r¹³/13!, to 2e-17 of itself where |r| ≤ ½ ln 2
-        low = r * (1 / 479001600 + r * (1 / 6227020800))
-        low = r * (1 / 3628800 + r * (1 / 39916800 + low))
-        low = r * (1 / 40320 + r * (1 / 362880 + low))
-        low = r * (1 / 720 + r * (1 / 5040 + low))
-        low = r * (1 / 24 + r * (1 / 120 + low))
-        low = r + r * r * (1 / 2 + r * (1 / 6 + low))
+        whole = np.rint(LOG2_E * wave[i])
+        r = (whole * LN2_HIGH - wave[i]) + whole * LN2_LOW
+        low = expm1_reduced(r)
         scale = powers_of_two[i]
         decay_squared = scale + scale * low
         odd = -0.5 * ((scale - 1.0) + scale * low)

@@ -14,7 +14,7 @@ const float CUMULATIVE_LONGEST_NM = 830.0;
 
 // Reflectances r² of s and p between media a and b, then 1 − r², of indices n and q = n cosθ; tangential is (n sinθ)²
 // Fresnel; as products, which keep their digits for equal media and at Brewster's angle
-vec4 interface_power(float n_a, float q_a, float n_b, float q_b, float tangential) {
+vec4 interface_shares(float n_a, float q_a, float n_b, float q_b, float tangential) {
     float aa = n_a * n_a;
     float bb = n_b * n_b;
     float sum_s = q_a + q_b;
@@ -112,8 +112,8 @@ vec3 bragg_reflectance_landmarks(
     float rho = (q1 * d1_nm - q2 * d2_nm) / path_nm;
     // Without one of its films a cell has no interface; also towards grazing light, where r₁₂² nears 1.
     bool has_both = q1 * d1_nm > 0.0 && q2 * d2_nm > 0.0;
-    vec2 inside = has_both ? interface_power(n1, q1, n2, q2, tangential).xy : vec2(0.0);
-    vec4 outside = interface_power(host_ior, q_h, n1, q1, tangential);
+    vec2 inside = has_both ? interface_shares(n1, q1, n2, q2, tangential).xy : vec2(0.0);
+    vec4 outside = interface_shares(host_ior, q_h, n1, q1, tangential);
 
     float at_normal = 0.735 * sq((n1 - n2) / (n1 + n2)) + 0.532;
     float weight = at_normal + (1.0 - at_normal) * sq(1.0 - q1 / n1);

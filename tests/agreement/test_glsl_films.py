@@ -19,15 +19,14 @@ from gltf_iri.tolerances import GLSL_BRANCH_ULP, GLSL_OPTICS_MAX_ABS
 
 PYTHON = {"khr": evaluate_khr, "khr-guarded": evaluate_khr_guarded}
 
-# Compared in test_glsl_exact_films.py and test_glsl_granier.py.
-ELSEWHERE = {"fourier", "spectral", "granier-heidrich"}
+# Compared in the files of tests beside this one that have their names.
+ELSEWHERE = {"fourier", "spectral", "granier-heidrich", "yeh-spectral", "landmarks", "landmarks-sub", "bloch"}
 
 POLE = "Fresnel0ToIor"  # the undefined case in which the text divides by zero
 
 
 def test_every_method_with_a_twin_is_compared() -> None:
-    films = {m.name for m in METHODS.values() if m.glsl_function and m.domain == "film"}
-    assert {*PYTHON, *ELSEWHERE} == films
+    assert {*PYTHON, *ELSEWHERE} == {m.name for m in METHODS.values() if m.glsl_function}
 
 
 @pytest.mark.parametrize("method", PYTHON)
