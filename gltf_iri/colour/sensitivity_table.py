@@ -17,7 +17,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Final
+from typing import Final, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -28,7 +28,7 @@ from gltf_iri.colour.spaces import XYZ_TO_REC709, White
 from gltf_iri.errors import UsageError
 
 __all__ = ["CELLS", "END_NM", "FADE_NM", "STEP_NM", "TABLE_ERROR", "Density", "SensitivityTable"]
-__all__ += ["rgb_density", "sensitivity_table", "tabulate_sensitivity"]
+__all__ += ["FlatTable", "flat_sensitivity_table", "rgb_density", "sensitivity_table", "tabulate_sensitivity"]
 
 Float64 = NDArray[np.float64]
 Complex128 = NDArray[np.complex128]
@@ -98,6 +98,34 @@ class SensitivityTable:
 def sensitivity_table(white: White) -> SensitivityTable:
     """Return the table of linear Rec.709 under `white`, made once."""
     return tabulate_sensitivity(rgb_density(lambda nm: illuminant(nm, white), XYZ_TO_REC709))
+
+
+class FlatTable(NamedTuple):
+    """The table as compiled loops read it; a cell of zeros beyond the last answers for all that lies there.
+
+    real, imaginary : 12 numbers a cell, by power, then channel.
+    envelope : two numbers a cell, the bound at its start and how it changes in it.
+    decay : no bound exceeds decay/place², with the place in cells.
+    """
+
+    real: Float64
+    imaginary: Float64
+    envelope: Float64
+    decay: float
+
+
+@cache
+def flat_sensitivity_table(white: White) -> FlatTable:
+    """Return the table of `sensitivity_table(white)`, laid flat once."""
+    table = sensitivity_table(white)
+    real, imaginary = (np.append(table.coefficients[:, part].reshape(-1), np.zeros(12)) for part in (0, 1))
+    starts_and_changes = np.stack([table.envelope[:-1], np.diff(table.envelope)], axis=-1)
+    envelope = np.append(starts_and_changes.reshape(-1), [0.0, 0.0])
+    # A cell's bound is greatest at its start, its place at its end.
+    decay = float((table.envelope[:-1] * np.arange(1, CELLS + 1) ** 2).max())
+    for array in (real, imaginary, envelope):
+        array.setflags(write=False)
+    return FlatTable(real, imaginary, envelope, decay)
 
 
 def rgb_density(power: Callable[[Float64], Float64], xyz_to_rgb: ArrayLike) -> Density:

@@ -43,9 +43,8 @@ def sum_series(
 ) -> None:
     """Write the colours of r films into `rgb` (3r,), and into `is_open` (r,) which the sum leaves open.
 
-    All arrays are flat and contiguous. cubics : 12 numbers for each cell, by power, then channel, and a cell
-    of zeros beyond the last; envelope : for each of these cells the bound at its start and how it changes in
-    it; decay : no bound exceeds decay/place² (in cells).
+    All arrays are flat and contiguous. cubics, envelope, decay : `real` and more of a `FlatTable`
+    (gltf_iri/colour/sensitivity_table.py).
     """
     kept, cell = np.zeros(20 * _BLOCK), np.zeros(4 * _BLOCK, np.int64)
     cells = float(len(envelope) // 2 - 1)

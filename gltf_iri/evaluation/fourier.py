@@ -19,14 +19,13 @@ mirrors whose bound asks for more than MAX_ORDERS terms.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from functools import cache
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.backends import Backend
-from gltf_iri.colour.sensitivity_table import CELLS, STEP_NM, sensitivity_table
+from gltf_iri.colour.sensitivity_table import CELLS, STEP_NM, flat_sensitivity_table, sensitivity_table
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.dispersive import FilmBand, film_bands
 from gltf_iri.evaluation.film import Base, Evaluation, Film, Float64
@@ -153,28 +152,12 @@ def _add_orders(films: _Unfinished, orders: int, rgb: Float64, white: White) -> 
     return films
 
 
-@cache
-def _flat_table(white: White) -> tuple[Float64, Float64, Float64, float]:
-    """Return the compiled loops' table: real and imaginary cubics, the envelope, and its bound by 1/place².
-
-    A cell of zeros stands beyond the last, so that a place in it needs no question.
-    """
-    table = sensitivity_table(white)
-    real, imaginary = (np.append(table.coefficients[:, part].reshape(-1), np.zeros(12)) for part in (0, 1))
-    envelope = np.append(
-        np.stack([table.envelope[:-1], np.diff(table.envelope)], axis=-1).reshape(-1), [0.0, 0.0]
-    )
-    # A cell's bound is greatest at its start, its place at its end.
-    decay = float((table.envelope[:-1] * np.arange(1, CELLS + 1) ** 2).max())
-    return real, imaginary, envelope, decay
-
-
 def _compiled(band: FilmBand, white: White, tolerance: float) -> tuple[Float64, NDArray[np.bool_]]:
     """Return the same as `_by_blocks`."""
     from gltf_iri.compiled.fourier import sum_series
     from gltf_iri.compiled.fourier_absorbing import sum_absorbing_series
 
-    real, imaginary, envelope, decay = _flat_table(white)
+    real, imaginary, envelope, decay = flat_sensitivity_table(white)
     count = len(band.cos_theta_1)
     rgb, is_open = np.zeros(3 * count), np.zeros(count, dtype=np.bool_)
     film = (band.outside_ior, band.film_ior, band.base_index, band.thickness_nm, band.cos_theta_1)
