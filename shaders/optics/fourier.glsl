@@ -34,8 +34,11 @@ FilmSeries film_series(Admittances y) {
     float first = y.y1 + y.y2;
     float contrast = y.y1 - y.y2;
     vec3 second = y.y2 + y.y3;
-    vec3 inverse = 1.0 / (y.y1 * second * second + contrast * contrast * y.y3);
-    vec3 ratio = (-contrast / first) * (y.y2 - y.y3) / second;
+    vec3 whole = y.y1 * second * second + contrast * contrast * y.y3;
+    // One division for two: software renderers divide slowly.
+    vec3 both = 1.0 / (second * whole);
+    vec3 inverse = second * both;
+    vec3 ratio = (-contrast / first) * (y.y2 - y.y3) * (whole * both);
     vec3 tail = (1.0 + abs(ratio)) * (0.25 / y.y2 * first * first) * (second * second * inverse);
     return FilmSeries(2.0 * y.y1 * y.y2 * y.y3 * inverse, ratio, tail);
 }
@@ -66,16 +69,18 @@ vec3 film_colour_fourier(
     float outside_ior, float film_ior, vec3 n3, vec3 q3_squared, float thickness_nm, float cos_theta_1) {
     float q1 = outside_ior * cos_theta_1;
     float q2_squared = normal_index_squared(film_ior, outside_ior, cos_theta_1);
-    float q2 = sqrt(max(q2_squared, 0.0));
+    float root = sqrt(max(q2_squared, 0.0));
+    float opd_nm = 2.0 * thickness_nm * root;
+    bool has_fringes = opd_nm > FOURIER_THIN_OPD_NM;
+    // 1 keeps a series finite that no one asks for.
+    float q2 = has_fringes ? root : 1.0;
     // What a real base reflects in total enters it nowhere, whatever its phase: Re q₃ = 0 says so.
     vec3 q3 = sqrt(max(q3_squared, 0.0));
     // Common factors of the admittances cancel; so written, only the base's index is divided by.
     float one = outside_ior * outside_ior, two = film_ior * film_ior;
     Admittances y_s = Admittances(q1, q2, q3, 1.0);
-    Admittances y_p = Admittances(q1 * two, q2 * one, q3 / n3 / n3 * (one * two), 1.0 / one);
+    Admittances y_p = Admittances(q1 * two, q2 * one, q3 * (one * two / (n3 * n3)), 1.0 / one);
 
-    float opd_nm = 2.0 * thickness_nm * q2;
-    bool has_fringes = opd_nm > FOURIER_THIN_OPD_NM;
     // A loop that is left at once, not a branch: software renderers compute both sides of a branch.
     vec3 entering = vec3(0.0);
     for (int i = 0; i < SPECTRAL_SMOOTH_COUNT; ++i) {
@@ -89,16 +94,13 @@ vec3 film_colour_fourier(
         entering += 0.5 * node.rgb * both;
     }
     FilmSeries s = film_series(y_s), p = film_series(y_p);
-    vec3 power_s = vec3(0.0), power_p = vec3(0.0), left = vec3(0.0);
-    if (has_fringes) {
-        entering = s.entering + p.entering;
-        power_s = 2.0 * s.entering * s.ratio;
-        power_p = 2.0 * p.entering * p.ratio;
-        left = abs(power_s) * s.tail + abs(power_p) * p.tail;
-    }
+    entering = has_fringes ? s.entering + p.entering : entering;
+    vec3 power_s = has_fringes ? 2.0 * s.entering * s.ratio : vec3(0.0);
+    vec3 power_p = has_fringes ? 2.0 * p.entering * p.ratio : vec3(0.0);
     // The table ends before the orders do, and with it the bound: each moves on by more than FOURIER_THIN_OPD_NM.
     for (int m = 1; m <= FOURIER_ORDERS; ++m) {
         vec4 sensitivity = sensitivity_real(sensitivity_place(float(m) * opd_nm));
+        vec3 left = abs(power_s) * s.tail + abs(power_p) * p.tail;
         entering += (power_s + power_p) * clamp(left * sensitivity.a - 1.0, 0.0, 1.0) * sensitivity.rgb;
         power_s *= s.ratio;
         power_p *= p.ratio;
