@@ -63,6 +63,18 @@ vec2 smooth_wave(float q2_squared, float path_rad) {
     return 0.5 * vec2(grown + 1.0 / grown, (grown - 1.0 / grown) / q2);
 }
 
+// Adds an order, of which the powers are 2 · G/2 · z^m, and moves them on; whether the next one counts.
+bool add_order(
+    FilmSeries s, FilmSeries p, float order_nm, inout vec3 power_s, inout vec3 power_p, inout vec3 entering) {
+    vec4 sensitivity = sensitivity_real(sensitivity_place(order_nm));
+    vec3 left = abs(power_s) * s.tail + abs(power_p) * p.tail;
+    entering += (power_s + power_p) * clamp(left * sensitivity.a - 1.0, 0.0, 1.0) * sensitivity.rgb;
+    power_s *= s.ratio;
+    power_p *= p.ratio;
+    // The envelope never rises: what this order's leaves below 1 need not be looked up.
+    return max3(abs(power_s) * s.tail + abs(power_p) * p.tail) * sensitivity.a > 1.0;
+}
+
 // R_j = 1 − Σ_{s,p} G/2 (1 + 2 Σ_m Re(z^m Ŝ_j(m D))), D = 2 d q₂
 // Belcour & Barla 2017, Eq. 5-6 and 10
 vec3 film_colour_fourier(
@@ -97,17 +109,12 @@ vec3 film_colour_fourier(
     entering = has_fringes ? s.entering + p.entering : entering;
     vec3 power_s = has_fringes ? 2.0 * s.entering * s.ratio : vec3(0.0);
     vec3 power_p = has_fringes ? 2.0 * p.entering * p.ratio : vec3(0.0);
+    // The first two are looked up for every film; of the second nothing counts where none is left after the first.
+    add_order(s, p, opd_nm, power_s, power_p, entering);
     // The table ends before the orders do, and with it the bound: each moves on by more than FOURIER_THIN_OPD_NM.
-    for (int m = 1; m <= FOURIER_ORDERS; ++m) {
-        vec4 sensitivity = sensitivity_real(sensitivity_place(float(m) * opd_nm));
-        vec3 left = abs(power_s) * s.tail + abs(power_p) * p.tail;
-        entering += (power_s + power_p) * clamp(left * sensitivity.a - 1.0, 0.0, 1.0) * sensitivity.rgb;
-        power_s *= s.ratio;
-        power_p *= p.ratio;
-        left = abs(power_s) * s.tail + abs(power_p) * p.tail;
-        // The envelope never rises: what this order's leaves below 1 need not be looked up. Left at the end, not at
-        // the start: software renderers run what follows once more for nobody.
-        if (!(max3(left) * sensitivity.a > 1.0)) {
+    // Left at the end, not at the start: software renderers run what follows once more for nobody.
+    for (int m = 2; m <= FOURIER_ORDERS; ++m) {
+        if (!add_order(s, p, float(m) * opd_nm, power_s, power_p, entering)) {
             break;
         }
     }
