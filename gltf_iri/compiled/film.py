@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.compiled.loops import inline, loop
 from gltf_iri.compiled.refraction import normal_index, normal_index_squared
-from gltf_iri.compiled.sincos import sine_of_octant, sine_of_quadrant
+from gltf_iri.compiled.sincos import sine_of_half_turns, sine_of_octant
 from gltf_iri.compiled.two_floats import exact_product, ratio, split, square_root
 
 __all__ = ["film_reflectance"]
@@ -132,8 +132,8 @@ def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
                 turns = high * first[j]
                 part = turns - np.rint(turns)
                 more = high * second[j] + rest * whole[j]
-                sine = sine_of_quadrant(0.5 * (part + more))
-                cosine = sine_of_quadrant(0.5 * ((0.5 - abs(part)) - (-more if part < 0.0 else more)))
+                sine = sine_of_half_turns(part + more)
+                cosine = sine_of_half_turns((0.5 - abs(part)) - (-more if part < 0.0 else more))
                 through_s, through_p = cosine + g_s * sine, cosine + g_p * sine
                 d_s = through_s * through_s + h_s * (sine * sine)
                 d_p = through_p * through_p + h_p * (sine * sine)

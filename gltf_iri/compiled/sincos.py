@@ -6,7 +6,7 @@ import numpy as np
 
 from gltf_iri.compiled.loops import inline
 
-__all__ = ["cosine_of_octant", "sincos_turns", "sine_of_octant", "sine_of_quadrant"]
+__all__ = ["cosine_of_octant", "sincos_half_turns", "sincos_turns", "sine_of_half_turns", "sine_of_octant"]
 
 
 @inline
@@ -24,6 +24,16 @@ def sincos_turns(turns: float) -> tuple[float, float]:
     turned_sine = cosine if is_steep else sine
     turned_cosine = sine if is_steep else cosine
     return -turned_sine if t < 0.0 else turned_sine, -turned_cosine if from_whole > 0.25 else turned_cosine
+
+
+@inline
+def sincos_half_turns(t: float) -> tuple[float, float]:
+    """Return sin(πt) and cos(πt), both of the other sign where t rounds to an odd number; else as above.
+
+    For products of two of them, whose sign does not change with both.
+    """
+    part = t - np.rint(t)
+    return sine_of_half_turns(part), sine_of_half_turns(0.5 - abs(part))
 
 
 @inline
@@ -45,10 +55,10 @@ def cosine_of_octant(turns: float) -> float:
 
 
 @inline
-def sine_of_quadrant(turns: float) -> float:
-    """Return sin(2πt) for |t| ≤ 1/4: sin(2πt)/t as a Chebyshev interpolation in t², truncated below 1e-18."""
-    s = turns * turns
-    p = 3.8199280942271643 + s * (-0.7177337921413454 + s * 0.10089695501646812)
-    p = 42.058693925428685 + s * (-15.0946416761179 + s * p)
-    p = 81.60524927607362 + s * (-76.70585975282492 + s * p)
-    return turns * (6.283185307179586 + s * (-41.341702240399755 + s * p))
+def sine_of_half_turns(t: float) -> float:
+    """Return sin(πt) for |t| ≤ ½: sin(πt)/t as a Chebyshev interpolation in t², truncated below 1e-18."""
+    s = t * t
+    p = 0.0004662998161898394 + s * (-2.1903497074626018e-05 + s * 7.697826768224191e-07)
+    p = 0.0821458865731029 + s * (-0.007370430505916944 + s * p)
+    p = 2.5501640398773007 + s * (-0.5992645293189447 + s * p)
+    return t * (3.141592653589793 + s * (-5.167712780049969 + s * p))

@@ -17,7 +17,6 @@ from gltf_iri.backends import Backend
 from gltf_iri.optics.bragg_cell import Cell, Films, Host, cell_optics, film_optics, host_optics
 from gltf_iri.optics.grid import Grid, Tile
 from gltf_iri.optics.lossy_bragg import lossy_powers
-from gltf_iri.optics.two_floats import reciprocal
 from gltf_iri.optics.yeh import SCRATCH_ARRAYS, half_phases, transmittance
 
 __all__ = ["BraggPowers", "Cell", "bragg_powers", "bragg_reflectance", "cell_optics"]
@@ -97,7 +96,7 @@ def bragg_powers(
 def _lossy_tiles(grid: Grid) -> Iterator[tuple[Tile, BraggPowers]]:
     """Yield the tiles whose cells absorb."""
     host, n1, n2, d1, d2, cells, cosine = grid.columns
-    for tile in grid.tiles(grid.rows_where(~((n1.imag == 0.0) & (n2.imag == 0.0)))):
+    for tile in grid.tiles(grid.rows_where(_absorbs(n1, n2))):
         of = tile.of_rows
         shares = lossy_powers(
             of(host), of(n1), of(n2), of(d1), of(d2), of(cells), tile.wavelength_nm, of(cosine)
@@ -139,28 +138,30 @@ def _lossless_tiles(grid: Grid) -> Iterator[tuple[Tile, Float64, Float64]]:
 def _reflect_compiled(grid: Grid, reflected: Float64) -> None:
     """Put the mean of R_s and R_p of the cells that do not absorb into `reflected`, by compiled loops."""
     from gltf_iri.compiled.bragg import bragg_rows, bragg_rows_in_host
+    from gltf_iri.compiled.bragg_cell import CONSTANTS, write_constants
 
-    is_lossless, films, host = _constants(grid)
-    rows = grid.rows_where(is_lossless)
-    constants = grid.table(films[:6], rows)
-    cells = grid.table(grid.columns[5:6], rows)[0].astype(np.int64)
-    waves = np.array(reciprocal(grid.wavelengths_of(rows)))
-    values = reflected if isinstance(rows, slice) else np.zeros((len(cells), waves.shape[-1]))
-    if host is None and not films.fades_in_2.any():
-        bragg_rows(constants, cells, waves, values)
-    else:
-        under = host or host_optics(*(grid.columns[c].real for c in (0, 1, 6)))
-        fades_in_2 = grid.table((films.fades_in_2,), rows)[0] != 0.0
-        bragg_rows_in_host(constants, fades_in_2, grid.table(under, rows), cells, waves, values)
-    if films.fades_in_1.any():
-        values[grid.table((films.fades_in_1,), rows)[0] != 0.0] = 1.0
+    host, n1, n2, d1, d2, cells, cosine = grid.columns
+    rows = grid.rows_where(~_absorbs(n1, n2))
+    given = grid.table((host, n1.real, n2.real, d1, d2, cosine, cells), rows)
+    constants, wavelength_nm = np.zeros((CONSTANTS, given.shape[1])), grid.wavelengths_of(rows)
+    values = reflected if isinstance(rows, slice) else np.zeros((given.shape[1], reflected.shape[1]))
+    is_general = write_constants(given[:6], constants)
+    (bragg_rows_in_host if is_general else bragg_rows)(
+        constants, given[6].astype(np.int64), wavelength_nm, values
+    )
     if values is not reflected:
         reflected[rows] = values
+
+
+def _absorbs(n1: NDArray[np.complex128], n2: NDArray[np.complex128]) -> NDArray[np.bool_]:
+    if not (np.iscomplexobj(n1) or np.iscomplexobj(n2)):
+        return np.zeros(1, dtype=np.bool_)
+    return np.asarray((n1.imag != 0.0) | (n2.imag != 0.0))
 
 
 def _constants(grid: Grid) -> tuple[NDArray[np.bool_], Films, Host | None]:
     """Return which rows absorb nothing, their films' constants, and their host's where one is not n1."""
     host, n1, n2, d1, d2, _, cosine = grid.columns
-    is_lossless = (n1.imag == 0.0) & (n2.imag == 0.0)
+    is_lossless = ~_absorbs(n1, n2)
     films = film_optics(host, n1.real, n2.real, d1, d2, cosine)
     return is_lossless, films, None if np.all(host == n1) else host_optics(host, n1.real, cosine)

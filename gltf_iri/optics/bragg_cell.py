@@ -13,7 +13,7 @@ from typing import Final, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gltf_iri.optics.refraction import normal_index_squared_real
+from gltf_iri.optics.refraction import normal_index_squared_exact
 
 __all__ = ["NO_NORMAL_INDEX", "Cell", "Films", "Host", "cell_optics", "film_optics"]
 __all__ += ["frustrated_cell_optics", "host_optics"]
@@ -157,6 +157,9 @@ def host_optics(host_ior: ArrayLike, n1: ArrayLike, cos_theta_h: ArrayLike) -> H
 
 
 def _along_normal(index: Float64, host_ior: Float64, c: Float64) -> tuple[Float64, NDArray[np.bool_]]:
-    """Return |q| of a film, never 0, and where light fades in it."""
-    squared = np.asarray(normal_index_squared_real(index, host_ior, c))
+    """Return |q| of a film, never 0, and where light fades in it.
+
+    To the last bit, because a sharp band magnifies one rounding of a phase beyond 1e-13.
+    """
+    squared = np.asarray(normal_index_squared_exact(index, host_ior, c)[0])
     return np.maximum(np.sqrt(np.abs(squared)), NO_NORMAL_INDEX), squared < 0.0
