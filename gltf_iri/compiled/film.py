@@ -23,6 +23,8 @@ Float64 = NDArray[np.float64]
 # As in optics/film.py
 _NO_INDEX = 1e-150
 _GRAZING = 1e-40
+_MANY_HALF_TURNS = 4.0
+_SHARP = 0.05**2
 
 _VECTOR = 8  # numbers that the widest vector instructions take at once; rows are padded to full vectors
 
@@ -81,6 +83,7 @@ def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
         value, low = ratio(columns[0, j], columns[1, j])
         high, rest = split(value)
         first[j], second[j], whole[j] = high, rest + low, value
+    most = np.max(whole)
     for i in range(rows.shape[1]):
         n1, n2, n3_real, n3_imag = rows[0, i], rows[1, i], rows[2, i], rows[3, i]
         c1, d, wavelength = rows[4, i], rows[5, i], rows[6, i]
@@ -107,6 +110,8 @@ def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
         value, low = exact_product(q2, twice)
         high, rest = split(value)
         rest += low + (q2_low * twice + q2 * twice_low)
+        # As there: plain phases are exact enough for few half turns, unless a resonance magnifies them.
+        is_short = value * most <= _MANY_HALF_TURNS and not (_is_sharp(h_s, g_s) or _is_sharp(h_p, g_p))
         if sign < 0.0:
             for j in range(padded):
                 t = math.tanh(math.pi * (value * whole[j]))
@@ -115,31 +120,52 @@ def _write(rows: Float64, columns: Float64, reflectance: Float64) -> None:
                 line[j] = _without(k_s * inside / d_s + k_p * inside / d_p)
         elif g_s == 0.0 and g_p == 0.0:
             for j in range(padded):
-                turns = high * first[j]
-                part = turns - np.rint(turns)
-                more = high * second[j] + rest * whole[j]
-                size, more = abs(part), (-more if part < 0.0 else more)
-                is_steep = size > 0.25  # taken from a quarter turn, exactly, the phase keeps its digits there
-                sine = sine_of_octant(0.5 * ((0.5 - size) - more if is_steep else size + more))
+                if is_short:  # of the whole row, so that no vector does both
+                    near = _less_whole(value * whole[j])
+                    far = 0.5 - abs(near)
+                else:
+                    near, far = _phase(high * first[j], high * second[j] + rest * whole[j])
+                sine = sine_of_octant(0.5 * min(abs(near), far))
                 small = sine * sine
                 large = 1.0 - small
+                is_steep = far < 0.25
                 sine_squared = large if is_steep else small
                 cosine_squared = small if is_steep else large
                 d_s, d_p = cosine_squared + h_s * sine_squared, cosine_squared + h_p * sine_squared
                 line[j] = _without((k_s * d_p + k_p * d_s) / (d_s * d_p))
         else:
             for j in range(padded):
-                turns = high * first[j]
-                part = turns - np.rint(turns)
-                more = high * second[j] + rest * whole[j]
-                sine = sine_of_half_turns(part + more)
-                cosine = sine_of_half_turns((0.5 - abs(part)) - (-more if part < 0.0 else more))
+                if is_short:
+                    near = _less_whole(value * whole[j])
+                    far = 0.5 - abs(near)
+                else:
+                    near, far = _phase(high * first[j], high * second[j] + rest * whole[j])
+                sine, cosine = sine_of_half_turns(near), sine_of_half_turns(far)
                 through_s, through_p = cosine + g_s * sine, cosine + g_p * sine
                 d_s = through_s * through_s + h_s * (sine * sine)
                 d_p = through_p * through_p + h_p * (sine * sine)
                 line[j] = _without((k_s * d_p + k_p * d_s) / (d_s * d_p))
         for j in range(count):
             reflectance[i, j] = line[j]
+
+
+@inline
+def _phase(half_turns: float, more: float) -> tuple[float, float]:
+    """Return t = `half_turns` + `more` less whole ones, and ½ − |t|, which keeps its digits at the pole."""
+    part = _less_whole(half_turns)
+    return part + more, (0.5 - abs(part)) - (-more if part < 0.0 else more)
+
+
+@inline
+def _less_whole(half_turns: float) -> float:
+    return half_turns - np.rint(half_turns)
+
+
+@inline
+def _is_sharp(h_squared: float, g: float) -> bool:
+    """As in optics/film.py: whether a resonance magnifies what rounds the phase."""
+    wide = 1.0 + g * g
+    return h_squared < _SHARP * (wide * wide) or h_squared * _SHARP > 1.0
 
 
 @inline
