@@ -158,7 +158,7 @@ def _phase(half_turns: float, more: float) -> tuple[float, float]:
 
 @inline
 def _less_whole(half_turns: float) -> float:
-    return half_turns - np.rint(half_turns)
+    return float(half_turns - np.rint(half_turns))
 
 
 @inline

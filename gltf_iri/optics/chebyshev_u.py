@@ -38,13 +38,15 @@ def chebyshev_pair(
             is_odd = np.broadcast_to((cells >> bit) % 2 == 1, x.shape)
             _advance(x, one_minus_x2, t, u, rest, is_odd)
         return t, u
-    t[...] = x
-    u.fill(1.0)
-    for position, digit in enumerate(bin(cells)[3:]):
+    digits = bin(cells)[3:]
+    if digits == "":
+        t[...] = x
+        u.fill(1.0)
+    for position, digit in enumerate(digits):
         if position == 0:
             np.multiply(one_minus_x2, -2.0, out=t)
             t += 1.0
-            np.multiply(x, 2.0, out=u)
+            np.add(x, x, out=u)
         else:
             _double(one_minus_x2, t, u, rest)
         if digit == "1":

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.backends import Backend
-from gltf_iri.optics.blocks import blocks, part
+from gltf_iri.optics.blocks import blocks, part, scratch
 from gltf_iri.optics.film_phase import phase_factors, table, write_tangent
 from gltf_iri.optics.refraction import (
     normal_index,
@@ -148,7 +148,7 @@ class _Films:
         for piece in blocks(shape):
             pieces = [each[piece] for each in answers]
             if space.shape[1] < pieces[0].size:
-                space = np.zeros((rows + 3, pieces[0].size))
+                space = scratch(rows + 3, pieces[0].size)
             work = space[:, : pieces[0].size].reshape(rows + 3, *pieces[0].shape)
             # Written out: numpy's loops over broadcast arrays take three times as long.
             np.copyto(work[:rows], part(self._coefficients, piece, axes))

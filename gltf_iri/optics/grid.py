@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from gltf_iri.optics.blocks import scratch
 
 __all__ = ["Grid", "Tile"]
 
@@ -51,11 +54,11 @@ class Grid:
     ) -> None:
         wavelength = np.asarray(wavelength_nm, dtype=np.float64)
         arrays = [np.asarray(a) for a in arguments]
-        self._shape = np.broadcast_shapes(wavelength.shape, *(a.shape for a in arrays))
+        self._shape = np.broadcast(wavelength, *arrays).shape
         has_axis = self._shape != () and all(a.shape[-1:] in ((), (1,)) for a in arrays)
         rows_shape = self._shape[:-1] if has_axis else self._shape
         self._width = self._shape[-1] if has_axis else 1
-        self.count = int(np.prod(rows_shape, dtype=np.intp))
+        self.count = math.prod(rows_shape)
         self.columns = [_column(a[..., 0] if has_axis and a.ndim > 0 else a, rows_shape) for a in arrays]
         is_shared = has_axis and wavelength.size == wavelength.shape[-1]
         spread = wavelength if is_shared else np.broadcast_to(wavelength, self._shape)
@@ -101,7 +104,7 @@ class Grid:
         short_side = max(1, _TILE // long_side)
         row_step, column_step = (long_side, short_side) if self._is_turned else (short_side, long_side)
         size = min(row_step, count) * min(column_step, self._width)
-        memory = [np.zeros(size) for _ in range(self._scratch_arrays)]
+        memory = scratch(self._scratch_arrays, size)
         for row in range(0, count, row_step):
             part = slice(row, min(row + row_step, count))
             chosen = part if isinstance(rows, slice) else rows[part]
@@ -113,9 +116,11 @@ class Grid:
                 shape = part.stop - part.start, columns.stop - columns.start
                 if self._is_turned:
                     wavelength, shape = wavelength.T, shape[::-1]
-                scratch = tuple(each[: shape[0] * shape[1]].reshape(shape) for each in memory)
-                yield Tile(chosen, columns, self._is_turned, wavelength, scratch)
+                lent = tuple(each[: shape[0] * shape[1]].reshape(shape) for each in memory)
+                yield Tile(chosen, columns, self._is_turned, wavelength, lent)
 
 
 def _column(values: NDArray[Any], rows_shape: tuple[int, ...]) -> NDArray[Any]:
-    return values.reshape(1) if values.size == 1 else np.broadcast_to(values, rows_shape).reshape(-1)
+    if values.size == 1:
+        return values.reshape(1)
+    return (values if values.shape == rows_shape else np.broadcast_to(values, rows_shape)).reshape(-1)

@@ -92,7 +92,7 @@ def transmittance(
     overflows: run under np.errstate(over="ignore"), nothing passes then.
     """
     one_minus, one_minus_x2 = scratch[5:7]
-    _trace_distances(phases, contrast, one_minus, one_minus_x2, scratch[7])
+    _trace_distances(phases, contrast, one_minus, one_minus_x2, scratch[7:10])
     one_minus_x2 *= one_minus
     x = np.subtract(1.0, one_minus, out=one_minus)
     if host is None:
@@ -116,11 +116,15 @@ def _take_tangent(half_turns: Float64, scratch: Float64) -> None:
 
 
 def _trace_distances(
-    phases: HalfPhases, contrast: Any, one_minus: Float64, one_plus: Float64, other: Float64
+    phases: HalfPhases, contrast: Any, one_minus: Float64, one_plus: Float64, scratch: Sequence[Float64]
 ) -> None:
     """Put 1 − x and 1 + x into `one_minus` and `one_plus`, x = cos KΛ."""
-    inverse = 1.0 / contrast
-    np.multiply(phases.t_2, -contrast if phases.is_frustrated else contrast, out=one_minus)
+    other, spread_contrast, spread_inverse = scratch
+    inverse = _spread(1.0 / contrast, spread_inverse)
+    contrast = _spread(contrast, spread_contrast)
+    np.multiply(phases.t_2, contrast, out=one_minus)
+    if phases.is_frustrated:
+        np.negative(one_minus, out=one_minus)
     one_minus += phases.t_1
     np.multiply(phases.t_2, inverse, out=other)
     other += phases.t_1
@@ -133,6 +137,14 @@ def _trace_distances(
     np.subtract(contrast, phases.product, out=other)
     one_plus *= other
     one_plus *= phases.double_cos2
+
+
+def _spread(values: Any, into: Float64) -> Any:
+    """Return `values` written out: numpy's loops over broadcast arrays take twice as long."""
+    if np.shape(values) == into.shape:
+        return values
+    np.copyto(into, values)
+    return into
 
 
 def _ratio_with_host(
