@@ -101,13 +101,13 @@ class _Films:
         given = (outside_ior, film_ior, thickness_nm, wavelength_nm, cos_theta_1)
         n1, n2, thickness, wavelength, c1 = (np.asarray(a, dtype=np.float64) for a in given)
         n3: Any = np.asarray(base_index, dtype=np.complex128)
-        self.shape = np.broadcast_shapes(
-            n1.shape, n2.shape, n3.shape, thickness.shape, wavelength.shape, c1.shape
-        )
+        self.shape = np.broadcast(n1, n2, n3, thickness, wavelength, c1).shape
         c1 = np.maximum(c1, _GRAZING)
         size = np.abs(n3)
         is_mirror = (size < _NO_INDEX) | np.isinf(size)
-        n3 = np.where(is_mirror, 1.0, n3)
+        share: Any = 2.0  # half of 4: the mean of both polarisations
+        if np.any(is_mirror):
+            n3, share = np.where(is_mirror, 1.0, n3), np.where(is_mirror, 0.0, share)
 
         q2_squared = normal_index_squared_real(n2, n1, c1)
         is_frustrated = q2_squared < 0.0
@@ -124,7 +124,6 @@ class _Films:
             of, n3 = _on_dielectric, n3.real
             q3 = np.sqrt(np.maximum(normal_index_squared_real(n3, n1, c1), 0.0))
         y1, y2 = n1 * c1, q2
-        share = np.where(is_mirror, 0.0, 2.0)  # half of 4: the mean of both polarisations
         s = of(share, y1, sign, y2, q3)
         p = of(share, y1 / (n1 * n1), sign, y2 / (n2 * n2), q3 / (n3 * n3))
         # κ/2, h² and, where a base absorbs, g: of s, then of p
@@ -159,9 +158,9 @@ class _Films:
             for answer, half, other in zip(pieces, (s, p), (p if mean else s, p), strict=False):
                 half += other
                 half *= both
-                np.subtract(1.0, half, out=answer)
+                np.subtract(1.0, half, out=half)
                 # A last bit below 0 is rounding, where nothing is reflected.
-                np.maximum(answer, 0.0, out=answer)
+                np.maximum(half, 0.0, out=answer)
         return [answer.reshape(self.shape) for answer in answers]
 
 

@@ -29,7 +29,7 @@ def phase_factors(q2: tuple[Any, ...], twice_nm: Float64, wavelength: Float64) -
     is_exact = len(q2) > 1
     per_nm = reciprocal(wavelength) if is_exact else (1.0 / wavelength,)
     # The thickness goes with the angles, unless that would make a whole grid of them.
-    together = np.broadcast_shapes(np.shape(q2[0]), twice_nm.shape)
+    together = np.broadcast(q2[0], twice_nm).shape
     if np.prod(together) <= max(np.size(q2[0]), wavelength.size):
         q2 = _times(q2, twice_nm)
     else:
@@ -95,7 +95,7 @@ def _halves(value: Any, low: Any) -> tuple[Any, Any, Any]:
 
 def table(*rows: Any) -> Float64:
     """Return (rows, ...): arrays that broadcast to (...), one after the other."""
-    filled = np.zeros((len(rows), *np.broadcast_shapes(*(np.shape(row) for row in rows))))
+    filled = np.zeros((len(rows), *np.broadcast(*rows).shape))
     for i, row in enumerate(rows):
         filled[i] = row
     return filled
