@@ -18,7 +18,8 @@ if typing.TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
-    from gltf_iri.evaluation.film import Base, Evaluation
+    from gltf_iri.colour.spaces import Light
+    from gltf_iri.evaluation.film import Base, Dispersion, Evaluation
     from gltf_iri.material.material import Material
     from gltf_iri.planning.material_plan import MaterialPlan
     from gltf_iri.rendering.frame import Frame
@@ -59,15 +60,15 @@ def evaluate(
     *,
     cos_theta_1: ArrayLike,
     thickness_nm: ArrayLike | None = None,
-    film_ior: ArrayLike | None = None,
+    film_ior: ArrayLike | Dispersion | None = None,
     base_f0: ArrayLike | None = None,
-    base_ior: ArrayLike | None = None,
+    base_ior: ArrayLike | Dispersion | None = None,
     base_nk: ArrayLike | None = None,
     base_edge_tint: ArrayLike | None = None,
     outside_ior: ArrayLike | None = None,
     bragg: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike, ArrayLike] | None = None,
     host_ior: ArrayLike | None = None,
-    white: str = "D65",
+    white: str | Light = "D65",
     backend: str = "auto",
     parameters: Mapping[str, float | str] | None = None,
 ) -> Evaluation:
@@ -82,16 +83,17 @@ def evaluate(
         for a mirror.
     cos_theta_1 : (...) cosine of the angle outside, in [0, 1].
     thickness_nm : (...) thickness of the film in nanometres, ≥ 0; a film needs it.
-    film_ior, outside_ior : (...) real refractive indices; without them glTF's default 1.3, and air's 1.
+    film_ior, outside_ior : (...) real refractive indices; without them glTF's default 1.3, and air's 1. The
+        film's may be a function of wavelength, (k,) nm → (k,).
     base_f0 : a number or (..., 3), reflectance of the base at normal incidence under air, in [0, 1].
-    base_ior : (...) real refractive index of the base.
+    base_ior : (...) real refractive index of the base, or a function of wavelength, n or n + ik.
     base_nk : (..., 2) index and extinction n, k of the base, k ≥ 0.
     base_edge_tint : (..., 3) in [0, 1], with base_f0: the metal of both colours (Gulbrandsen 2014).
     bragg : n1, n2, d1_nm, d2_nm and the number of cells of a mirror, each (...): the light meets the n1 film
         of each cell first, and beyond the last cell lies n1. Complex indices n + ik, k ≥ 0, absorb; only
         "yeh-spectral" takes them.
     host_ior : (...) real index outside the mirror; without it n1.
-    white : "D65" or "E".
+    white : "D65", "E", or a `gltf_iri.colour.spaces.Light`: any illuminant, with any RGB space.
     backend : "auto", "numpy" or "numba" (compiled loops, the extra `fast`); the result names the one used.
     parameters : of the method, by name (``Method.parameters``).
 
@@ -181,12 +183,20 @@ def render(
 
 
 def _base(
-    f0: ArrayLike | None, ior: ArrayLike | None, nk: ArrayLike | None, edge_tint: ArrayLike | None
+    f0: ArrayLike | None,
+    ior: ArrayLike | Dispersion | None,
+    nk: ArrayLike | None,
+    edge_tint: ArrayLike | None,
 ) -> Base:
     import numpy as np
 
     from gltf_iri.errors import UsageError
-    from gltf_iri.evaluation.film import base_from_edge_tint, base_from_f0, base_from_ior
+    from gltf_iri.evaluation.film import (
+        base_from_dispersion,
+        base_from_edge_tint,
+        base_from_f0,
+        base_from_ior,
+    )
     from gltf_iri.material.ior import Ior
 
     if sum(given is not None for given in (f0, ior, nk)) > 1:
@@ -202,4 +212,6 @@ def _base(
         if pairs.shape[-1:] != (2,):
             raise UsageError("base_nk wants n and k in its last axis.")
         return base_from_ior(pairs[..., 0] + 1j * pairs[..., 1])
+    if callable(ior):
+        return base_from_dispersion(ior)
     return base_from_ior(Ior().ior if ior is None else ior)

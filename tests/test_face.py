@@ -16,7 +16,7 @@ import pytest
 import gltf_iri
 from gltf_iri.colour.spaces import WHITES
 from gltf_iri.errors import AssetError, UsageError
-from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
+from gltf_iri.evaluation.film import Film, base_from_dispersion, base_from_f0, base_from_ior
 from gltf_iri.evaluation.registry import evaluate as evaluate_film
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
@@ -46,6 +46,10 @@ TRIANGLE = {
     "bufferViews": [{"buffer": 0, "byteLength": 36}],
     "buffers": [{"byteLength": 36, "uri": "triangle.bin"}],
 }
+
+
+def copper(wavelength_nm):
+    return 0.3 + 1j * wavelength_nm / 200.0
 
 
 @pytest.fixture
@@ -97,6 +101,7 @@ def test_evaluate_broadcasts_like_numpy(method):
         ({"base_ior": 1.8}, base_from_ior(1.8)),
         ({"base_f0": 0.5}, base_from_f0([0.5, 0.5, 0.5])),
         ({"base_nk": [0.2, 3.0]}, base_from_ior(0.2 + 3.0j)),
+        ({"base_ior": copper}, base_from_dispersion(copper)),
     ],
 )
 def test_each_way_to_give_the_base_is_that_base(given, base):

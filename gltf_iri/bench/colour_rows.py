@@ -13,7 +13,6 @@ from gltf_iri.backends import has_numba
 from gltf_iri.bench.settings import Settings, settings_of, with_defaults
 from gltf_iri.bench.timing import interleaved_ns
 from gltf_iri.colour.difference import delta_e_2000
-from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
@@ -23,7 +22,7 @@ __all__ = ["WHITE", "ColourRow", "Contestant", "colour_row", "colour_rows", "reg
 __all__ += ["with_ratios"]
 
 Float64 = NDArray[np.float64]
-WHITE: Final[White] = "D65"
+WHITE: Final = "D65"
 
 
 @dataclass(frozen=True, slots=True)

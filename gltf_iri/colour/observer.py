@@ -13,7 +13,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gltf_iri.colour.spaces import White
+from gltf_iri.colour.spaces import Light, White
 from gltf_iri.colour.tables import D65_FILE, OBSERVER_FILE
 
 __all__ = ["WAVELENGTH_RANGE_NM", "colour_matching", "illuminant", "observer_table"]
@@ -38,8 +38,10 @@ def colour_matching(wavelength_nm: ArrayLike) -> Float64:
 
 
 def illuminant(wavelength_nm: ArrayLike, white: White) -> Float64:
-    """Return the relative power (...) of D65 or of the flat illuminant E at `wavelength_nm` (...)."""
+    """Return the relative power (...) of `white`, E being flat, at `wavelength_nm` (...)."""
     wavelength = np.asarray(wavelength_nm, dtype=np.float64)
+    if isinstance(white, Light):
+        return np.asarray(white.power(wavelength), dtype=np.float64)
     if white == "E":
         return np.ones_like(wavelength)
     table = _d65_table()

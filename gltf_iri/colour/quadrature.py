@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 
 from gltf_iri.colour.gauss import gauss_panels
 from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM, colour_matching, illuminant, observer_table
-from gltf_iri.colour.spaces import XYZ_TO_REC709, White
+from gltf_iri.colour.spaces import White, rgb_matrix
+from gltf_iri.errors import UsageError
 
 __all__ = ["HALF_BANDWIDTH_PER_NM", "ColourRule", "colour_density", "colour_rule"]
 
@@ -100,13 +101,14 @@ def _panels(degree: int, white: White) -> tuple[Float64, Float64]:
 
 def _density(wavelength_nm: Float64, white: White) -> Float64:
     power = illuminant(wavelength_nm, white)[..., None]
-    return np.asarray((colour_matching(wavelength_nm) * power) @ XYZ_TO_REC709.T)
+    return np.asarray((colour_matching(wavelength_nm) * power) @ rgb_matrix(white).T)
 
 
 @cache
 def _white_integral(white: White) -> Float64:
-    """Return ∫ density dλ (3,) before normalisation: Simpson's rule is exact between the observer's steps."""
-    knots = observer_table()[:, 0]
-    step = np.diff(knots)[:, None]
-    low, middle, high = (_density(w, white) for w in (knots[:-1], 0.5 * (knots[:-1] + knots[1:]), knots[1:]))
-    return np.asarray((step * (low + 4.0 * middle + high) / 6.0).sum(axis=0))
+    """Return ∫ density dλ (3,) before normalisation; UsageError where a channel has no white."""
+    wavelength_nm, gauss = gauss_panels(observer_table()[:, 0], _GAUSS_POINTS)
+    total = (_density(wavelength_nm, white) * gauss[:, None]).sum(axis=0)
+    if not np.all(total > 0.0):
+        raise UsageError("A channel of this RGB space sees nothing of this light: it has no white.")
+    return np.asarray(total)

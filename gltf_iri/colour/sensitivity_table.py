@@ -24,7 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.colour.gauss import gauss_panels
 from gltf_iri.colour.observer import colour_matching, illuminant, observer_table
-from gltf_iri.colour.spaces import XYZ_TO_REC709, White
+from gltf_iri.colour.spaces import White, rgb_matrix
 from gltf_iri.errors import UsageError
 
 __all__ = ["CELLS", "END_NM", "FADE_NM", "STEP_NM", "TABLE_ERROR", "Density", "SensitivityTable"]
@@ -96,8 +96,8 @@ class SensitivityTable:
 
 @cache
 def sensitivity_table(white: White) -> SensitivityTable:
-    """Return the table of linear Rec.709 under `white`, made once."""
-    return tabulate_sensitivity(rgb_density(lambda nm: illuminant(nm, white), XYZ_TO_REC709))
+    """Return the table of the RGB space of `white`, made once."""
+    return tabulate_sensitivity(rgb_density(lambda nm: illuminant(nm, white), rgb_matrix(white)))
 
 
 class FlatTable(NamedTuple):

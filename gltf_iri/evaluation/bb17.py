@@ -31,7 +31,7 @@ _E_XYZ_TO_RGB: Final[NDArray[np.float64]] = XYZ_TO_REC709 / XYZ_TO_REC709.sum(ax
 
 def evaluate_bb17(film: Film, white: White, *, orders: int = BB17_ORDERS) -> Evaluation:
     """Evaluate `bb17` with fringes up to order `orders`; indices by wavelength as in `fourier`."""
-    return Evaluation(prefiltered_bb17(film, 0.0, white, orders), "bb17", white)
+    return Evaluation(prefiltered_bb17(film, 0.0, white, orders), "bb17", str(white))
 
 
 def prefiltered_bb17(

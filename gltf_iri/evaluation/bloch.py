@@ -61,7 +61,7 @@ def evaluate_bloch(
         for start in range(0, len(cells), _ROWS_AT_ONCE):
             part = slice(start, start + _ROWS_AT_ONCE)
             rgb[part] = _colours(rows.part(part), cells[part], rule)
-    return Evaluation(rgb.reshape(*mirror.shape, 3), "bloch", white)
+    return Evaluation(rgb.reshape(*mirror.shape, 3), "bloch", str(white))
 
 
 def _colours(cell: BlochCell, cells: NDArray[np.int64], rule: WavenumberRule) -> Float64:

@@ -58,7 +58,7 @@ def evaluate_fourier(
         rest = np.flatnonzero(is_open)
         if len(rest) > 0:
             rgb[rest, band.channels] = integrated_band(band.rows(rest), white)[:, band.channels]
-    return Evaluation(rgb.reshape(*film.shape, 3), "fourier", white)
+    return Evaluation(rgb.reshape(*film.shape, 3), "fourier", str(white))
 
 
 def integrated_band(band: FilmBand, white: White) -> Float64:

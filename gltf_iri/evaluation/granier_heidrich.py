@@ -37,4 +37,4 @@ def evaluate_granier_heidrich(film: Film, white: White) -> Evaluation:
         1.0,
         1.0,
     )
-    return Evaluation(np.broadcast_to(rgb, (*film.shape, 3)), "granier-heidrich", white)
+    return Evaluation(np.broadcast_to(rgb, (*film.shape, 3)), "granier-heidrich", str(white))

@@ -89,7 +89,7 @@ def evaluate_khr(film: Film, white: White, *, backend: Backend = "numpy") -> Eva
         rgb = _compiled(arguments, film.shape)
     else:
         rgb = np.broadcast_to(iridescent_fresnel_khr(*arguments), (*film.shape, 3))
-    return Evaluation(rgb, "khr", white, undefined=_undefined(film))
+    return Evaluation(rgb, "khr", str(white), undefined=_undefined(film))
 
 
 def _compiled(arguments: tuple[Float64, ...], shape: tuple[int, ...]) -> Float64:

@@ -104,7 +104,7 @@ def evaluate_khr_guarded(film: Film, white: White) -> Evaluation:
     rgb = iridescent_fresnel_khr_guarded(
         film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1
     )
-    return Evaluation(np.broadcast_to(rgb, (*film.shape, 3)), "khr-guarded", white)
+    return Evaluation(np.broadcast_to(rgb, (*film.shape, 3)), "khr-guarded", str(white))
 
 
 def _smoothstep(x: Float64) -> Float64:

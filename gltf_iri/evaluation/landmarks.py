@@ -37,7 +37,7 @@ def evaluate_landmarks(
 ) -> Evaluation:
     """Return the colour from one box between two landmarks; raises UsageError for cells that absorb."""
     rgb = _colours(mirror, white, 1, cast(RootFinder, root_finder), backend)
-    return Evaluation(rgb, "landmarks", white, undefined=_undefined(mirror))
+    return Evaluation(rgb, "landmarks", str(white), undefined=_undefined(mirror))
 
 
 def evaluate_landmarks_sub(
@@ -50,7 +50,7 @@ def evaluate_landmarks_sub(
 ) -> Evaluation:
     """Return the colour from boxes cut into max(1, `subdivisions` − m); errors as `evaluate_landmarks`."""
     rgb = _colours(mirror, white, subdivisions, cast(RootFinder, root_finder), backend)
-    return Evaluation(rgb, "landmarks-sub", white, undefined=_undefined(mirror))
+    return Evaluation(rgb, "landmarks-sub", str(white), undefined=_undefined(mirror))
 
 
 def cumulative_table(white: White, **parameters: ParameterValue) -> NDArray[np.float32]:

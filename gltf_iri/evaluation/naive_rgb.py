@@ -45,4 +45,4 @@ def evaluate_naive_rgb(
     if film.base.index_at is not None:
         base_index = index_by_wavelength(film.base.index_at, wavelength_nm)
     rgb = film_reflectance(outside_ior, film_ior, base_index, thickness_nm, wavelength_nm, cos_theta_1)
-    return Evaluation(np.array(np.broadcast_to(rgb, (*film.shape, 3))), "naive-rgb", white)
+    return Evaluation(np.array(np.broadcast_to(rgb, (*film.shape, 3))), "naive-rgb", str(white))

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from gltf_iri.backends import choose_backend
-from gltf_iri.colour.spaces import WHITES
+from gltf_iri.colour.spaces import WHITES, Light
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.bb17 import evaluate_bb17
 from gltf_iri.evaluation.bloch import evaluate_bloch
@@ -55,17 +55,18 @@ def evaluate(
     method: str,
     subject: Film | Mirror,
     *,
-    white: str = "D65",
+    white: str | Light = "D65",
     backend: str = "auto",
     parameters: Mapping[str, ParameterValue] = MappingProxyType({}),
 ) -> Evaluation:
     """Return the reflectance colour of `subject` (shape subject.shape + (3,)) by the method called `method`.
 
-    Raises UsageError where the method or the white ("D65", "E") is unknown, the method is not one for films
-    or mirrors as the subject is, or has no such parameter or backend.
+    white : "D65", "E", or a light of the caller's own.
+    Raises UsageError where the method or the white is unknown, the method is not one for films or mirrors as
+    the subject is, or has no such parameter or backend.
     """
     descriptor = find_method(method, "mirror" if isinstance(subject, Mirror) else "film")
-    if white not in WHITES:
+    if not isinstance(white, Light) and white not in WHITES:
         raise UsageError(f"There is no white '{white}'; choose one of: {', '.join(WHITES)}.")
     known = {parameter.name: parameter for parameter in descriptor.parameters}
     for name in parameters:

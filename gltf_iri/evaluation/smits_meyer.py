@@ -56,7 +56,7 @@ def evaluate_smits_meyer(film: Film, white: White) -> Evaluation:
     opd_nm = np.broadcast_to(2.0 * film.thickness_nm * q2[..., 0].real, film.shape)
     fringe = _fringes(opd_nm.reshape(-1), white).reshape(*film.shape, 3)
     rgb = F12 + T12 * T12 * F23 + 2.0 * T12 * np.sqrt(F12 * F23) * sign * fringe
-    return Evaluation(np.array(np.broadcast_to(rgb, (*film.shape, 3))), "smits-meyer", white)
+    return Evaluation(np.array(np.broadcast_to(rgb, (*film.shape, 3))), "smits-meyer", str(white))
 
 
 def _unpolarised(n_1: Any, q_1: Any, n_2: Any, q_2: Any) -> Float64:

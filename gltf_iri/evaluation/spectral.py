@@ -21,7 +21,7 @@ def evaluate_spectral(film: Film, white: White) -> Evaluation:
     """Evaluate the truth under `white`; raises UsageError where a spectrum is too fine to be integrated."""
     flat = _Rows(film)
     rgb = integrate_colour(flat.reflectance, flat.count, white=white, opd_nm=flat.opd_nm())
-    return Evaluation(rgb.reshape(*film.shape, 3), "spectral", white)
+    return Evaluation(rgb.reshape(*film.shape, 3), "spectral", str(white))
 
 
 def film_spectrum(film: Film, wavelength_nm: Float64) -> Float64:

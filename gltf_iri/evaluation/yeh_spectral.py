@@ -34,7 +34,7 @@ def evaluate_yeh_spectral(mirror: Mirror, white: White) -> Evaluation:
     """
     rows = _Rows(mirror)
     rgb = integrate_colour(rows.reflectance, rows.count, white=white, opd_nm=rows.opd_nm())
-    return Evaluation(rgb.reshape(*mirror.shape, 3), "yeh-spectral", white)
+    return Evaluation(rgb.reshape(*mirror.shape, 3), "yeh-spectral", str(white))
 
 
 def mirror_spectrum(mirror: Mirror, wavelength_nm: Float64) -> Float64:
