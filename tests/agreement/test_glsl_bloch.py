@@ -78,7 +78,7 @@ def test_glsl_bloch_equals_python_bloch(
     record_property: Callable[[str, object], None],
 ) -> None:
     error = errors(probe, mirrors(), {"samples": samples})
-    record_property("max_abs", error.max())
+    record_property("measured", f"bloch in GLSL against Python, {samples} samples: max abs {error.max():.1e}")
     assert error.max() < GLSL_BLOCH_MAX_ABS
 
 
