@@ -28,7 +28,7 @@ __all__ = ["main"]
 Float64 = NDArray[np.float64]
 
 METAL: Final = base_from_ior(1.1 + 1.5j)
-THICK: Final = (1.6, 900.0)  # Fig. 2: index and thickness in nm
+THICK: Final = (1.6, 1200.0)  # Fig. 2: index and thickness in nm
 PEAKS_NM: Final = np.array([600.0, 560.0, 450.0])
 ANGLES: Final = np.linspace(0.0, np.pi / 2.0, 181)
 

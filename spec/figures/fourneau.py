@@ -42,10 +42,14 @@ def figure_3(pyplot: Any) -> Any:
     top.plot(t, 1.0 - envelope_transmittance(t, lean, r_squared), color="0.6", lw=1.2, label="envelope")
     top.plot(t, mirror_spectrum(mirror, 2.0 * path_nm / t), lw=0.8, label="R, N = 10")
     boxes = spectral_boxes(lanes, 1, "newton-2")
-    for low, high, through in zip(
-        *(a[boxes.lane == 0] for a in (boxes.low, boxes.high, boxes.transmittance)), strict=True
-    ):
-        top.plot([low, high], [1.0 - through] * 2, "r--", lw=1.2)
+    first = boxes.lane == 0
+    order = np.argsort(boxes.low[first])
+    low, high, through = (a[first][order] for a in (boxes.low, boxes.high, boxes.transmittance))
+    # Between boxes lie the gaps, where all is reflected.
+    steps_t = np.stack([low, high, high], axis=-1).ravel()
+    steps = np.stack([1.0 - through, 1.0 - through, np.ones(len(low))], axis=-1)
+    steps[:-1, 2] = np.where(low[1:] > high[:-1] + 1e-9, 1.0, 1.0 - through[1:])
+    top.step(steps_t[:-1], steps.ravel()[:-1], "r--", lw=1.2, where="post", label="boxes, 360–830 nm")
     bottom.plot(t, band_gap_function(t, lean, r_squared) / (1.0 - r_squared), "k", lw=0.8)
     bottom.axhspan(-1.0, 1.0, color="0.93")
     modes = np.arange(0, 5)
