@@ -100,6 +100,10 @@ def _by_structure(values: NDArray[Any]) -> NDArray[Any]:
     return values[:, None, None]
 
 
+def _absorbs(workload: Workload) -> bool:
+    return bool(workload.cell_index.imag.any())
+
+
 def _real_where_possible(index: NDArray[np.complex128]) -> NDArray[Any]:
     return index if index.imag.any() else index.real
 
@@ -107,9 +111,11 @@ def _real_where_possible(index: NDArray[np.complex128]) -> NDArray[Any]:
 _WHOLE: Final[Grids] = MappingProxyType({})
 
 OURS: Final = (
-    Own("film", lambda workload: workload.is_film and not workload.cell_index.imag.any(), _film, _WHOLE),
+    Own("film", lambda workload: workload.is_film and not _absorbs(workload), _film, _WHOLE),
     Own("airy", lambda workload: workload.is_film, _airy, _WHOLE, ("numpy",)),
-    Own("bragg", lambda workload: not workload.is_film, _bragg, _WHOLE),
+    Own("bragg", lambda workload: not (workload.is_film or _absorbs(workload)), _bragg, _WHOLE),
+    # Cells that absorb have no compiled loop: asked for one, `bragg_reflectance` takes numpy.
+    Own("bragg", lambda workload: not workload.is_film and _absorbs(workload), _bragg, _WHOLE, ("numpy",)),
     Own(
         "stack",
         lambda _: True,
