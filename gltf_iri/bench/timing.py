@@ -13,8 +13,9 @@ from typing import Final
 
 __all__ = ["interleaved_ns", "one_thread"]
 
-# Shorter runs are repeated within a round: the clock and the caches' first misses then weigh nothing.
-_SHORTEST_NS: Final = 2_000_000
+# Shorter runs are repeated within a round, for about as long as the slower ones take: what the one before has
+# left in the caches then weighs nothing, and nor does the clock.
+_SHORTEST_NS: Final = 20_000_000
 
 # What numba, OpenMP, and the BLAS libraries read when they are first loaded.
 _THREAD_COUNTS: Final = (

@@ -16,7 +16,7 @@ def test_contestants_run_in_turns() -> None:
 
     def slow(name: str) -> None:
         # Longer than what is repeated within a round.
-        end = os.times().elapsed + 0.02
+        end = os.times().elapsed + 0.05
         while os.times().elapsed < end:
             pass
         calls.append(name)
