@@ -1,4 +1,4 @@
-"""Ctrl-C, kept waiting for the moments in which it would do harm."""
+"""Ctrl-C and the signals that end a process, kept waiting for the moments in which they would do harm."""
 
 from __future__ import annotations
 
@@ -10,30 +10,34 @@ from contextlib import contextmanager
 
 __all__ = ["interrupts_held"]
 
+# Windows has no SIGHUP.
+_ENDINGS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+
 
 @contextmanager
 def interrupts_held() -> Iterator[None]:
-    """Keep Ctrl-C waiting while the block runs, and for ever from the processes that it starts.
+    """Keep the signals waiting while the block runs, and Ctrl-C for ever from the processes that it starts.
 
-    A terminal sends it to all of them: those would each print a traceback where the first says one sentence,
-    and one that is only half started would outlive it. A library that is interrupted in the middle of calling
-    back may crash.
+    A terminal sends Ctrl-C to all of them: those would each print a traceback where the first says one
+    sentence, and one that is only half started would outlive it. A library that is interrupted in the middle
+    of calling back may crash, whichever signal it is.
     """
     if sys.platform == "win32":  # where there are no masks
         yield
         return
     # The mask is for the processes, which inherit it. Here another thread takes the signal all the same.
     mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    handler = signal.getsignal(signal.SIGINT)
-    holds = callable(handler) and threading.current_thread() is threading.main_thread()
+    held = {}
     came: list[int] = []
-    if holds:
-        signal.signal(signal.SIGINT, lambda number, _: came.append(number))
+    if threading.current_thread() is threading.main_thread():
+        held = {n: h for n in _ENDINGS if callable(h := signal.getsignal(n))}
+        for number in held:
+            signal.signal(number, lambda number, _: came.append(number))
     try:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, mask)
-        if holds:
-            signal.signal(signal.SIGINT, handler)
+        for number, handler in held.items():
+            signal.signal(number, handler)
         if came:
-            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(came[0])
