@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM
 from gltf_iri.colour.sensitivity import GAUSSIANS, SENSITIVITY_WHITE, Gaussian
 from gltf_iri.colour.sensitivity_table import END_NM
 from gltf_iri.colour.spaces import XYZ_TO_REC709
 from gltf_iri.evaluation import fourier, khr, khr_guarded
-from gltf_iri.optics import layering, microfacet, sheen
+from gltf_iri.optics import granier_heidrich, landmarks, layering, microfacet, sheen
 from gltf_iri.rendering import environment_light, optics_tables
 from gltf_iri.scene import light
 
@@ -79,6 +80,16 @@ def film_constants_glsl() -> str:
             f"const int SENSITIVITY_ROW_BITS = {optics_tables.SENSITIVITY_ROW_BITS};",
             f"const int SENSITIVITY_ROWS = {optics_tables.SENSITIVITY_ROWS};",
             f"const int SPECTRAL_SMOOTH_COUNT = {optics_tables.SPECTRAL_SMOOTH_DEGREE + 1};",
+        ],
+        [
+            "// gltf_iri/optics/granier_heidrich.py",
+            f"const vec3 LAYER_WAVELENGTHS_NM = {_vec3(granier_heidrich.WAVELENGTHS_NM)};",
+        ],
+        [
+            "// gltf_iri/optics/landmarks.py, and gltf_iri/colour/observer.py: what is visible",
+            f"const int LANDMARK_MODES_MAX = {landmarks.MODES_MAX};",
+            _scalar("SHORTEST_NM", WAVELENGTH_RANGE_NM[0]),
+            _scalar("LONGEST_NM", WAVELENGTH_RANGE_NM[1]),
         ],
         [
             "// gltf_iri/evaluation/fourier.py",

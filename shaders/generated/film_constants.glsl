@@ -39,6 +39,14 @@ const int SENSITIVITY_ROW_BITS = 10;
 const int SENSITIVITY_ROWS = 75;
 const int SPECTRAL_SMOOTH_COUNT = 33;
 
+// gltf_iri/optics/granier_heidrich.py
+const vec3 LAYER_WAVELENGTHS_NM = vec3(645.0, 525.0, 445.0);
+
+// gltf_iri/optics/landmarks.py, and gltf_iri/colour/observer.py: what is visible
+const int LANDMARK_MODES_MAX = 256;
+const float SHORTEST_NM = 360.0;
+const float LONGEST_NM = 830.0;
+
 // gltf_iri/evaluation/fourier.py
 const float FOURIER_THIN_OPD_NM = 20.0;
 const int FOURIER_ORDERS = 3200;

@@ -2,9 +2,8 @@
 // Twin: gltf_iri/optics/granier_heidrich.py, which says what the model leaves out.
 
 #include "common/math.glsl"
+#include "generated/film_constants.glsl"
 #include "optics/turns.glsl"
-
-const vec3 LAYER_WAVELENGTHS_NM = vec3(645.0, 525.0, 445.0);
 
 // One channel of ρ = R + T + 2 cos(2Φ) √(RT)
 // R = F(l·n₀) ⟨r, v⟩^e₀ (Eq. 6), T = (1 − F(l·n₀)) 𝒯(t_v) ⟨r_t, −t_v⟩^e₁ (Eq. 10), Φ = π n d ⟨t_l + t_v, −n₀⟩/λ (Eq. 3)

@@ -1,16 +1,14 @@
 // A Bragg mirror's colour from boxes between the landmarks of its spectrum, for many cells.
 // Twin: gltf_iri/evaluation/landmarks.py, which says what of it goes beyond the paper.
 
+#include "generated/film_constants.glsl"
 #include "optics/cumulative_colour.glsl"
 #include "optics/landmark_search.glsl"
 #include "optics/refraction.glsl"
 
-const int LANDMARK_MODES_MAX = 256;
 const float LANDMARK_SUBDIVISIONS_MAX = 5.0;
 const float LANDMARK_LEAST_PATH_NM = 1e-12; // stands for a cell without thickness
 const float LANDMARK_LEAST_INDEX = 1e-18;   // stands for light along the films
-const float CUMULATIVE_SHORTEST_NM = 360.0;
-const float CUMULATIVE_LONGEST_NM = 830.0;
 
 // Reflectances r² of s and p between media a and b, then 1 − r², of indices n and q = n cosθ; tangential is (n sinθ)²
 // Fresnel; as products, which keep their digits for equal media and at Brewster's angle
@@ -68,9 +66,9 @@ vec3 band_transmittance(vec3 band, float rho, Polarisation beam, int parts, floa
 vec3 landmark_transmittance(
     float path_nm, float rho, Polarisation s, Polarisation p, float subdivisions, int newton_steps) {
     float steps_nm =
-        float(cumulative_steps()) / (1.0 / CUMULATIVE_SHORTEST_NM - 1.0 / CUMULATIVE_LONGEST_NM);
-    float first = floor(2.0 * path_nm / CUMULATIVE_LONGEST_NM);
-    float last = floor(2.0 * path_nm / CUMULATIVE_SHORTEST_NM);
+        float(cumulative_steps()) / (1.0 / SHORTEST_NM - 1.0 / LONGEST_NM);
+    float first = floor(2.0 * path_nm / LONGEST_NM);
+    float last = floor(2.0 * path_nm / SHORTEST_NM);
     // Thicker cells show more gaps than are searched: each band then stands for the `stride` from it on.
     float stride = 1.0 + floor((last - first) / float(LANDMARK_MODES_MAX));
     float scale = 0.5 * steps_nm / path_nm;
@@ -87,7 +85,7 @@ vec3 landmark_transmittance(
         band_s = newton_steps > 0 ? band_s : halved_s;
         band_p = newton_steps > 0 ? band_p : halved_p;
         int parts = int(clamp(subdivisions - m, 1.0, LANDMARK_SUBDIVISIONS_MAX));
-        float shift = (m - stride * m) * scale - steps_nm / CUMULATIVE_LONGEST_NM;
+        float shift = (m - stride * m) * scale - steps_nm / LONGEST_NM;
         total += band_transmittance(band_s, rho, s, parts, stride * scale, shift);
         total += band_transmittance(band_p, rho, p, parts, stride * scale, shift);
     }
