@@ -17,6 +17,8 @@ struct ComplexFilmSeries {
     float tail;      // H/G
 };
 
+// R = 1 − G(1 + 2Σ Re zᵐŜ), z = −(Y₁ − Y₂)(Y₂ − Y₃)/((Y₁ + Y₂)(Y₂ + Y₃)), G = 4Y₁Y₂Re Y₃/(Y₁|Y₂ + Y₃|² + (Y₁ − Y₂)²Re Y₃)
+// Belcour & Barla 2017, Eq. 5-6, in admittances
 ComplexFilmSeries film_series(ComplexAdmittances y) {
     float first = y.y1 + y.y2;
     float contrast = y.y1 - y.y2;
@@ -28,6 +30,8 @@ ComplexFilmSeries film_series(ComplexAdmittances y) {
     return ComplexFilmSeries(2.0 * y.y1 * y.y2 * y.y3.x * inverse, ratio, tail);
 }
 
+// What enters the base at one wavelength: 4 Y₁ Re Y₃ over |(Y₁ + Y₃) cos β − i(Y₂² + Y₁Y₃) sin β/Y₂|².
+// Belcour & Barla 2017, Eq. 2-3; Airy summation
 float entering_airy(ComplexAdmittances y, float y2_squared, vec2 wave) {
     float along = y.scale * wave.y;
     vec2 den = vec2((y.y1 + y.y3.x) * wave.x + along * y.y1 * y.y3.y,

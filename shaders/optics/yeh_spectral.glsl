@@ -1,6 +1,7 @@
 // The mirror's exact reflectance, summed over the wavelengths of a fixed rule.
 // Twin: gltf_iri/evaluation/yeh_spectral.py, which refines its rule until the colour settles; this one resolves
-// fringes of path differences up to SPECTRAL_OPD_MAX_NM (gltf_iri/rendering/optics_tables.py), some thirty cells.
+// fringes of path differences up to SPECTRAL_OPD_MAX_NM (gltf_iri/rendering/optics_tables.py). Resonances are finer:
+// it holds for few cells (spec/optics-notes.md).
 
 #include "optics/bragg.glsl"
 #include "optics/spectral_rule.glsl"
