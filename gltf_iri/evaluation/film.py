@@ -15,6 +15,7 @@ from gltf_iri.optics.ior import fresnel0_to_ior
 from gltf_iri.planning.method import ParameterValue
 
 __all__ = [
+    "INDEX_MAX",
     "Base",
     "Dispersion",
     "Evaluation",
@@ -36,7 +37,7 @@ Dispersion = Callable[[Float64], NDArray[np.complex128] | Float64]
 _REFERENCE_NM = 587.56
 
 # Beyond any matter and any film, yet so small that no square, product or ratio of two overflows.
-_INDEX_MAX = 1e6
+INDEX_MAX = 1e6
 _THICKNESS_MAX_NM = 1e12
 
 
@@ -120,9 +121,9 @@ def _reflectance_under_air(index: Complex128) -> Float64:
 
 def _checked_index(index: ArrayLike) -> Complex128:
     checked = np.asarray(index, dtype=np.complex128)
-    if not np.all((checked.real >= 0.0) & (checked.imag >= 0.0) & (np.abs(checked) <= _INDEX_MAX)):
+    if not np.all((checked.real >= 0.0) & (checked.imag >= 0.0) & (np.abs(checked) <= INDEX_MAX)):
         raise UsageError(
-            f"The base index n + ik wants n ≥ 0 and k ≥ 0, at most {_INDEX_MAX:g} (waves are exp(−iωt))."
+            f"The base index n + ik wants n ≥ 0 and k ≥ 0, at most {INDEX_MAX:g} (waves are exp(−iωt))."
         )
     return checked
 
@@ -171,9 +172,9 @@ class Film:
             raise UsageError("The cosine of the outside angle must lie in [0, 1].")
         if not np.all((thickness >= 0.0) & (thickness <= _THICKNESS_MAX_NM)):
             raise UsageError(f"The film thickness must lie in [0, {_THICKNESS_MAX_NM:g}] nanometres.")
-        if not all(np.all((index >= 1.0 / _INDEX_MAX) & (index <= _INDEX_MAX)) for index in (film, outside)):
+        if not all(np.all((index >= 1.0 / INDEX_MAX) & (index <= INDEX_MAX)) for index in (film, outside)):
             raise UsageError(
-                f"The indices of film and outside must lie in [{1.0 / _INDEX_MAX:g}, {_INDEX_MAX:g}]."
+                f"The indices of film and outside must lie in [{1.0 / INDEX_MAX:g}, {INDEX_MAX:g}]."
             )
         checked = cls(cosine, thickness, film, base, outside, film_ior_at)
         try:

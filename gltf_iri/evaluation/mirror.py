@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.film import INDEX_MAX
 
 __all__ = ["Mirror"]
 
@@ -16,7 +17,6 @@ Float64 = NDArray[np.float64]
 Complex128 = NDArray[np.complex128]
 
 # Beyond any matter and any mirror, yet so small that no square, product or ratio of two overflows.
-_INDEX_MAX: Final = 1e6
 _THICKNESS_MAX_NM: Final = 1e9
 _CELLS_MAX: Final = 10**6
 
@@ -61,14 +61,14 @@ class Mirror:
         if not np.all((cosine >= 0.0) & (cosine <= 1.0)):
             raise UsageError("The cosine of the outside angle must lie in [0, 1].")
         for index in (first, second):
-            in_range = (index.real >= 1.0 / _INDEX_MAX) & (index.imag >= 0.0) & (np.abs(index) <= _INDEX_MAX)
+            in_range = (index.real >= 1.0 / INDEX_MAX) & (index.imag >= 0.0) & (np.abs(index) <= INDEX_MAX)
             if not np.all(in_range):
                 raise UsageError(
-                    f"A cell's index n + ik wants n in [{1.0 / _INDEX_MAX:g}, {_INDEX_MAX:g}] and k ≥ 0"
+                    f"A cell's index n + ik wants n in [{1.0 / INDEX_MAX:g}, {INDEX_MAX:g}] and k ≥ 0"
                     " (waves are exp(−iωt))."
                 )
-        if not np.all((host >= 1.0 / _INDEX_MAX) & (host <= _INDEX_MAX)):
-            raise UsageError(f"The host's index must lie in [{1.0 / _INDEX_MAX:g}, {_INDEX_MAX:g}].")
+        if not np.all((host >= 1.0 / INDEX_MAX) & (host <= INDEX_MAX)):
+            raise UsageError(f"The host's index must lie in [{1.0 / INDEX_MAX:g}, {INDEX_MAX:g}].")
         if not all(np.all((d >= 0.0) & (d <= _THICKNESS_MAX_NM)) for d in (d1, d2)):
             raise UsageError(f"A cell's thicknesses must lie in [0, {_THICKNESS_MAX_NM:g}] nanometres.")
         if not np.all((count >= 1.0) & (count <= _CELLS_MAX) & (count == np.rint(count))):

@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.backends import Backend
-from gltf_iri.optics.bragg_cell import Cell, Films, Host, cell_optics, film_optics, host_optics
+from gltf_iri.optics.bragg_cell import Films, Host, film_optics, host_optics
 from gltf_iri.optics.grid import Grid, Tile
 from gltf_iri.optics.lossy_bragg import lossy_powers
 from gltf_iri.optics.yeh import SCRATCH_ARRAYS, half_phases, transmittance
 
-__all__ = ["BraggPowers", "Cell", "bragg_powers", "bragg_reflectance", "cell_optics"]
+__all__ = ["BraggPowers", "bragg_powers", "bragg_reflectance"]
 
 Float64 = NDArray[np.float64]
 

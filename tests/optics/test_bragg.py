@@ -9,7 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from gltf_iri.bench.fifty_digits import mirror_50_digits, stack_50_digits
-from gltf_iri.optics.bragg import bragg_powers, bragg_reflectance, cell_optics
+from gltf_iri.optics.bragg import bragg_powers, bragg_reflectance
+from gltf_iri.optics.bragg_cell import cell_optics
 from gltf_iri.optics.film import film_reflectance
 
 Float64 = NDArray[np.float64]
