@@ -6,7 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.film_table import FilmTable, Lobe
+from gltf_iri.planning.way import Way
 
 __all__ = ["MaterialPlan"]
 
@@ -19,6 +22,10 @@ class MaterialPlan:
     for and that this program does not simulate, so that every report can name them. Together
     the three hold every effect of a material once; `absent` names those of `skipped` that the file does not
     mention at all, which lists for people leave out.
+
+    `material` is what is drawn: the file's, with textures that are the same everywhere folded into factors.
+    `way` is how the film is computed where a budget chose it; without a budget it is None and `method` is
+    computed directly, with its default parameters.
     """
 
     index: int  # DEFAULT_MATERIAL for glTF's default material
@@ -30,10 +37,17 @@ class MaterialPlan:
     skipped: Mapping[Effect, str] = field(default_factory=dict)
     not_drawn: Mapping[str, str] = field(default_factory=dict)
     absent: frozenset[Effect] = frozenset()
+    material: Material | None = None
+    way: Way | None = None
 
     def calls_for(self, effect: Effect) -> bool:
         """True where `effect` is simulated."""
         return effect in self.effects
+
+    def table(self, lobe: Lobe) -> FilmTable | None:
+        """Return the table of the film over `lobe`; None where it is computed directly or there is none."""
+        tables = () if self.way is None else self.way.tables
+        return next((table for table in tables if table.lobe == lobe), None)
 
     def to_json(self) -> dict[str, Any]:
         """Return the row of `plan --json`."""
@@ -44,6 +58,7 @@ class MaterialPlan:
             "method": self.method,
             "method_reason": self.method_reason,
             "layering": self.layering,
+            "way": None if self.way is None else self.way.to_json(),
             "skipped": {effect.value: reason for effect, reason in self.skipped.items()},
             "not_drawn": dict(self.not_drawn),
         }

@@ -16,8 +16,8 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 
 # From the door down to the bytes: a folder may import those after it, never those before it.
 ROAD = (
-    *("cli", "gallery", "bench", "comparison", "rendering", "reference", "evaluation", "planning"),
-    *("scene", "material", "asset"),
+    *("cli", "gallery", "bench", "comparison", "rendering", "reference", "budgets", "baking", "evaluation"),
+    *("planning", "scene", "material", "asset"),
 )
 # Open to every folder; these may import each other and nothing of the road.
 GROUND = {"optics", "colour", "compiled", "backends", "errors", "interrupts", "tolerances", "resources"}
@@ -52,6 +52,7 @@ OPENERS = {
     "colour/observer.py",  # the program's own tables
     "compiled/loops.py",  # the sources of compiled loops, to know their machine code by
     "samples/collection.py",  # looks at the index of an earlier collection
+    "planning/costs.py",  # the program's own map of costs
     "cli/main.py",  # the null device
     "generate.py",  # the checkout that it runs in
 }

@@ -1,0 +1,48 @@
+"""The values that a material's film meets anywhere: what a budget must hold for, and what needs no code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+__all__ = ["Reach", "Span"]
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """All numbers from `low` to `high`, both included."""
+
+    low: float
+    high: float
+
+    @classmethod
+    def at(cls, value: float) -> Span:
+        """Return the span of one number."""
+        return cls(value, value)
+
+    @property
+    def is_point(self) -> bool:
+        """True where there is one number only."""
+        return self.low == self.high
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """What the film of one material meets, textures and vertex colours included; cosines always reach [0, 1].
+
+    Channels of colours vary independently here, which is never less than what the textures hold.
+
+    factor : of the film's strength, `iridescenceFactor` times its texture.
+    thickness_nm : of the film.
+    metallic, roughness : after their texture; roughness is perceptual.
+    base_color : (R, G, B) in [0, 1]: the metal under the film.
+    dielectric_f0 : (R, G, B) in [0, 1]: of the dielectric under the film, specular weight included where the
+        plan's layering puts it there.
+    """
+
+    film_ior: float
+    factor: Span
+    thickness_nm: Span
+    metallic: Span
+    roughness: Span
+    base_color: tuple[Span, Span, Span]
+    dielectric_f0: tuple[Span, Span, Span]
