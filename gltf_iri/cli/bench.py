@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gltf_iri.backends import has_numba
-from gltf_iri.cli.common import json_option, note, print_json, print_table, progress
+from gltf_iri.cli.bench_tables import print_colours, print_optics
+from gltf_iri.cli.common import json_option, note, print_json, progress
 from gltf_iri.errors import UsageError
 
 if TYPE_CHECKING:
@@ -167,26 +168,7 @@ def _add_colours(report: _Report, rows: list[ColourRow], title: str) -> None:
 
     report.machine.update(machine())
     report.rows += rows
-    figures = ("ns/eval", "ratio", "max abs", "ΔE mean", "ΔE p95", "ΔE max")
-    cells = [
-        (
-            row.workload,
-            row.label,
-            row.backend,
-            f"{row.ns_per_eval:,.0f}",
-            _figure(row.ratio, ".2f"),
-            _figure(row.max_abs, ".2g"),
-            _figure(row.delta_e_mean, ".3f"),
-            _figure(row.delta_e_p95, ".3f"),
-            _figure(row.delta_e_max, ".2f"),
-        )
-        for row in rows
-    ]
-    reference = " or ".join(dict.fromkeys(row.ratio_to for row in rows if row.ratio_to))
-    whole = f"{title}, D65 white, CIEDE2000" + (
-        f"; ratio of times to {reference} by the same backend" if reference else ""
-    )
-    report.tables.append(lambda: print_table(("workload", "method", "backend", *figures), cells, title=whole))
+    report.tables.append(lambda: print_colours(rows, title))
 
 
 def _optics(report: _Report, names: Sequence[str], peers: bool, rounds: int | None) -> None:
@@ -211,47 +193,4 @@ def _optics(report: _Report, names: Sequence[str], peers: bool, rounds: int | No
         packages = tuple(dict.fromkeys(each.package for each in PEERS)) if peers else ()
         report.machine.update(machine(packages), threads=1, is_pinned_to_one_core=is_pinned)
     report.rows += rows
-    report.tables.append(lambda: _print_optics(rows, report.machine))
-
-
-def _print_optics(rows: Iterable[OpticsRow], machine: dict[str, Any]) -> None:
-    columns = (
-        "workload",
-        "method",
-        "backend",
-        "version",
-        "ns/eval",
-        "max abs",
-        "evals",
-        "× peer",
-        "target",
-        "",
-    )
-    cells = [
-        (
-            row.workload,
-            row.method,
-            row.backend,
-            row.version,
-            _figure(row.ns_per_eval, ",.4g"),
-            _figure(row.max_abs, ".1e"),
-            f"{row.evaluations:,}",
-            _figure(row.speedup, ",.3g"),
-            _figure(row.target, ",.0f"),
-            row.remark or _standing(row),
-        )
-        for row in rows
-    ]
-    vectors = {True: "with AVX-512", False: "without AVX-512", None: "AVX-512 unknown"}[machine["avx512"]]
-    title = f"Reflectances against 50 digits, one thread; {machine['processor']}, {vectors}"
-    print_table(columns, cells, title=title)
-
-
-def _figure(value: float | None, form: str) -> str:
-    return "-" if value is None else format(value, form)
-
-
-def _standing(row: OpticsRow) -> str:
-    if not row.is_correct:
-        return "wrong"
-    return "the fastest correct peer" if row.is_fastest_correct_peer else ""
+    report.tables.append(lambda: print_optics(rows, report.machine))
