@@ -1,0 +1,169 @@
+"""What the options of `gltf-iri evaluate` describe (a film, a mirror, a file's material), and its colours."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from gltf_iri.cli.common import material_label
+from gltf_iri.material.ior import Ior
+from gltf_iri.material.iridescence import Iridescence
+
+if TYPE_CHECKING:
+    from gltf_iri.evaluation.film import Evaluation
+    from gltf_iri.material.material import Material
+
+__all__ = ["DEFAULT_BASE", "DEFAULT_FILM", "DEFAULT_OUTSIDE_IOR", "How", "from_file", "from_mirror"]
+__all__ += ["from_parameters"]
+
+# glTF's own defaults, for the film and for its base.
+DEFAULT_FILM = Iridescence()
+DEFAULT_BASE = Ior()
+DEFAULT_OUTSIDE_IOR = 1.0
+
+# Textures that make another base under the film; the film's own have their place in the title.
+_TEXTURES_OF_THE_BASE = frozenset(
+    {"base-color-texture", "metallic-roughness-texture", "specular-texture", "specular-color-texture"}
+)
+
+_LISTED_MAX = 8  # materials that an error names; `plan` lists them all
+
+
+@dataclass(frozen=True, slots=True)
+class How:
+    """By which method, under which white, and by what."""
+
+    method: str | None
+    white: str
+    backend: str
+    parameters: dict[str, str]
+
+
+def from_mirror(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> dict[str, Any]:
+    """Return what `evaluate --json` prints of the mirror `given`; a film's options are refused."""
+    import gltf_iri
+
+    for option, value in given.items():
+        if value is not None and option not in ("bragg", "host_ior"):
+            raise click.UsageError(f"a Bragg mirror has no --{option.replace('_', '-')}; leave it out")
+    evaluation = gltf_iri.evaluate(
+        how.method,
+        cos_theta_1=cosines,
+        bragg=given["bragg"],
+        host_ior=given["host_ior"],
+        white=how.white,
+        backend=how.backend,
+        parameters=how.parameters,
+    )
+    return _result(cosines, evaluation)
+
+
+def from_parameters(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> dict[str, Any]:
+    """Return what `evaluate --json` prints of the film `given`; two bases are refused."""
+    import gltf_iri
+
+    if given["host_ior"] is not None:
+        raise click.UsageError("--host is the index outside a mirror: give --bragg too, or --outside-ior")
+    bases = [name for name in ("base_f0", "base_ior", "base_nk") if given[name] is not None]
+    if len(bases) > 1:
+        names = " and ".join("--" + name.replace("_", "-") for name in bases)
+        raise click.UsageError(f"{names} each describe the base: give one of them")
+    f0 = given["base_f0"]
+    if given["base_edge_tint"] is not None and f0 is None:
+        raise click.UsageError("--base-edge-tint needs --base-f0, the metal's colour straight on")
+    evaluation = gltf_iri.evaluate(
+        how.method,
+        cos_theta_1=cosines,
+        thickness_nm=_or(given["thickness"], DEFAULT_FILM.thickness_max_nm),
+        film_ior=_or(given["film_ior"], DEFAULT_FILM.film_ior),
+        base_f0=f0[0] if f0 is not None and len(f0) == 1 else f0,
+        base_ior=given["base_ior"],
+        base_nk=given["base_nk"],
+        base_edge_tint=given["base_edge_tint"],
+        outside_ior=_or(given["outside_ior"], DEFAULT_OUTSIDE_IOR),
+        white=how.white,
+        backend=how.backend,
+        parameters=how.parameters,
+    )
+    return _result(cosines, evaluation)
+
+
+def from_file(
+    file: Path,
+    name: str | None,
+    cosines: tuple[float, ...],
+    how: How,
+    layered: bool,
+    given: dict[str, Any],
+) -> dict[str, Any]:
+    """Return what `evaluate --json` prints of the material of `file` called `name`."""
+    from gltf_iri.evaluation.material_film import evaluate_material
+    from gltf_iri.planning.decide import plan_material
+    from gltf_iri.scene.load import load
+
+    for option, value in given.items():
+        if value is not None and option != "thickness":
+            raise click.UsageError(f"FILE's material decides --{option.replace('_', '-')}; leave it out")
+    materials = load(file).materials
+    index = _chosen(materials, name, file)
+    plan = plan_material(materials[index], index, method=how.method)
+    done = evaluate_material(
+        materials[index],
+        plan,
+        cosines,
+        thickness_nm=given["thickness"],
+        white=how.white,
+        backend=how.backend,
+        parameters=how.parameters,
+    )
+    result = _result(cosines, done.film)
+    result |= {"material": plan.name, "index": index, "thickness_nm": done.thickness_nm}
+    result |= {"thickness_range_nm": done.thickness_range_nm, "factor": done.factor}
+    result["textures_left_out"] = [e.value for e in plan.effects if e.value in _TEXTURES_OF_THE_BASE]
+    if layered:
+        result |= {"specular": done.layer.specular, "base_weight": done.layer.base_weight}
+    return result
+
+
+def _chosen(materials: tuple[Material, ...], name: str | None, file: Path) -> int:
+    """Return the index of the material called `name` or numbered so, or of the only one with a film."""
+    from gltf_iri.errors import UsageError
+
+    candidates = list(range(len(materials)))
+    if name is None:
+        candidates = fits = [i for i, material in enumerate(materials) if material.iridescence is not None]
+    else:
+        fits = [i for i, material in enumerate(materials) if material.name == name]
+        if not fits and name.isdecimal() and int(name) < len(materials):
+            fits = [int(name)]
+    if len(fits) == 1:
+        return fits[0]
+    wanted = "with a film" if name is None else f"called '{name}'"
+    has = f"{len(fits)} materials {wanted}" if fits else f"no material {wanted}"
+    if not candidates:
+        raise UsageError(f"{file} has {has}; name another file.")
+    listed = ", ".join(material_label(i, materials[i].name) for i in candidates[:_LISTED_MAX])
+    more = f" and {len(candidates) - _LISTED_MAX} more" if len(candidates) > _LISTED_MAX else ""
+    raise UsageError(f"{file} has {has}; choose one with --material from: {listed}{more}.")
+
+
+def _result(cosines: tuple[float, ...], evaluation: Evaluation) -> dict[str, Any]:
+    return {
+        "method": evaluation.method,
+        "white": evaluation.white,
+        "cos": cosines,
+        "rgb": evaluation.rgb,
+        "backend": evaluation.backend,
+        "parameters": dict(evaluation.parameters),
+        "undefined": {
+            case: [c for c, touched in zip(cosines, mask, strict=True) if touched]
+            for case, mask in evaluation.undefined.items()
+        },
+    }
+
+
+def _or(value: float | None, default: float) -> float:
+    return default if value is None else value
