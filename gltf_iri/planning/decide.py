@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
 from gltf_iri.errors import UsageError
@@ -11,11 +12,18 @@ from gltf_iri.material.material import DEFAULT_MATERIAL, Material
 from gltf_iri.planning.core import core_verdicts
 from gltf_iri.planning.effects import MATERIAL_EFFECTS, Effect
 from gltf_iri.planning.extensions import extension_verdicts
-from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, film_verdicts, idle_film
+from gltf_iri.planning.film import (
+    DRAWS_PHANTOM_FRINGES,
+    film_verdicts,
+    idle_film,
+    verdicts_without_film,
+)
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import DEFAULT_METHOD, Method, find_method
+from gltf_iri.planning.reach import Reach
 from gltf_iri.planning.transmission import transmission_verdicts
 from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict
+from gltf_iri.planning.way import Way
 
 if TYPE_CHECKING:
     from gltf_iri.scene.model import Scene
@@ -32,6 +40,8 @@ _SEEN_UNLIT: Final = frozenset(
         Effect.DOUBLE_SIDED,
     }
 )
+
+_NOTHING: Final[Mapping[Effect, str]] = MappingProxyType({})
 
 _SPECULAR_GLOSSINESS: Final = "KHR_materials_pbrSpecularGlossiness"
 
@@ -55,39 +65,62 @@ def complete_plans(plans: Sequence[MaterialPlan], scene: Scene) -> tuple[Materia
     return tuple(plans)
 
 
-def plan_material(material: Material, index: int, *, method: str | None = None) -> MaterialPlan:
+def plan_material(
+    material: Material,
+    index: int,
+    *,
+    method: str | None = None,
+    reach: Reach | None = None,
+    way: Way | None = None,
+    way_reason: str = "",
+    folded: Mapping[Effect, str] = _NOTHING,
+) -> MaterialPlan:
     """Return what `material` calls for.
 
     index : its place in the file, DEFAULT_MATERIAL for glTF's default material.
     method : the film method that was asked for; None leaves the choice to the plan.
+    reach : what the film meets (`material_reach`); None where the textures are unknown: they may then hold
+        anything that the format allows.
+    way : how the film is computed, `way_reason` why; its method goes before `method`, and without one the
+        film is left out for that reason. None: the method is computed directly.
+    folded : reasons for what `simplified` has taken out of `material`.
 
     Raises UsageError where the method does not exist or does not compute films.
     """
-    descriptor = find_method(DEFAULT_METHOD if method is None else method, "film")
-    if descriptor.domain != "film":
-        raise UsageError(f"The method '{method}' computes mirrors; a material's film wants another.")
-    decided = dict(_verdicts(material, descriptor))
+    name = method if way is None else way.method
+    descriptor = find_method(DEFAULT_METHOD if name is None else name, "film")
+    decided = dict(_verdicts(material, descriptor, reach, folded))
     verdicts: dict[Effect, Verdict] = {effect: decided[effect] for effect in MATERIAL_EFFECTS}
+    if way is not None and way.method is None and material.iridescence and not verdicts[Effect.IRIDESCENCE]:
+        verdicts |= verdicts_without_film(material.iridescence, Skip(way_reason), folded)
     film = verdicts[Effect.IRIDESCENCE]
+    if film is None and way is not None:
+        method_reason = way_reason
+    else:
+        method_reason = _method_reason(material, reach, film, descriptor, is_asked=method is not None)
     return MaterialPlan(
         index=index,
         name=material.name,
         effects=tuple(e for e, v in verdicts.items() if v is None),
         method=descriptor.name if film is None else None,
-        method_reason=_method_reason(material, film, descriptor, is_asked=method is not None),
+        method_reason=method_reason,
         layering=_layering(material, descriptor if film is None else None),
         skipped={e: v.reason for e, v in verdicts.items() if isinstance(v, Skip)},
         not_drawn=_not_drawn(material, verdicts),
         absent=frozenset(e for e, v in verdicts.items() if isinstance(v, Skip) and v.is_absent),
+        material=material,
+        way=way,
     )
 
 
-def _verdicts(material: Material, method: Method) -> Iterable[tuple[Effect, Verdict]]:
+def _verdicts(
+    material: Material, method: Method, reach: Reach | None, folded: Mapping[Effect, str]
+) -> Iterator[tuple[Effect, Verdict]]:
     for decided in (
-        core_verdicts(material),
-        extension_verdicts(material),
-        film_verdicts(material, method),
-        transmission_verdicts(material),
+        core_verdicts(material, folded),
+        extension_verdicts(material, folded),
+        film_verdicts(material, method, reach, folded),
+        transmission_verdicts(material, folded),
     ):
         for effect, verdict in decided:
             yield effect, _under_unlit(effect, verdict) if material.unlit is not None else verdict
@@ -101,11 +134,13 @@ def _under_unlit(effect: Effect, verdict: Verdict) -> Verdict:
     return Skip("the material is unlit")
 
 
-def _method_reason(material: Material, film: Verdict, method: Method, *, is_asked: bool) -> str:
+def _method_reason(
+    material: Material, reach: Reach | None, film: Verdict, method: Method, *, is_asked: bool
+) -> str:
     if film is not None:
         return f"no film: {film.reason}"
     reason = "asked for" if is_asked else "the default: the text's formula with its undefined cases closed"
-    idle = idle_film(material)
+    idle = idle_film(material, reach)
     if idle is not None and method.name in DRAWS_PHANTOM_FRINGES:
         reason += f"; drawn to the letter although {idle}: the text shows fringes where physics has none"
     return reason

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from gltf_iri.material.anisotropy import Anisotropy
 from gltf_iri.material.clearcoat import Clearcoat
@@ -16,21 +16,19 @@ from gltf_iri.planning.verdict import Skip, Verdict, absent, texture_verdict
 __all__ = ["extension_verdicts"]
 
 
-def extension_verdicts(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+def extension_verdicts(material: Material, folded: Mapping[Effect, str]) -> Iterator[tuple[Effect, Verdict]]:
     """Yield the verdicts on specular, anisotropy, sheen, clearcoat, and on their textures."""
-    yield from _specular(material)
-    yield from _anisotropy(material)
-    yield from _sheen(material)
-    yield from _clearcoat(material)
+    for judge in (_specular, _anisotropy, _sheen, _clearcoat):
+        yield from judge(material, folded)
 
 
-def _specular(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+def _specular(material: Material, folded: Mapping[Effect, str]) -> Iterator[tuple[Effect, Verdict]]:
     specular = material.specular
     if specular is None:
         for effect in (Effect.SPECULAR, Effect.SPECULAR_TEXTURE, Effect.SPECULAR_COLOR_TEXTURE):
             yield effect, absent(Specular.EXTENSION)
         return
-    no_dielectric = dielectric_verdict(material)
+    no_dielectric = dielectric_verdict(material, folded)
     idle = f"only dielectrics read it, and {no_dielectric.reason}" if no_dielectric else None
     neutral = specular == Specular()
     yield (
@@ -39,16 +37,15 @@ def _specular(material: Material) -> Iterator[tuple[Effect, Verdict]]:
     )
     if specular.factor == 0.0:
         idle = idle or "the specular factor is 0"
-    yield Effect.SPECULAR_TEXTURE, texture_verdict(specular.texture, "specular texture", idle)
+    effect = Effect.SPECULAR_TEXTURE
+    yield effect, texture_verdict(specular.texture, "specular texture", idle, folded.get(effect))
     if not any(specular.color_factor):
         idle = idle or "the specular color factor is 0"
-    yield (
-        Effect.SPECULAR_COLOR_TEXTURE,
-        texture_verdict(specular.color_texture, "specular color texture", idle),
-    )
+    effect = Effect.SPECULAR_COLOR_TEXTURE
+    yield effect, texture_verdict(specular.color_texture, "specular color texture", idle, folded.get(effect))
 
 
-def _anisotropy(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+def _anisotropy(material: Material, folded: Mapping[Effect, str]) -> Iterator[tuple[Effect, Verdict]]:
     anisotropy = material.anisotropy
     if anisotropy is None:
         for effect in (Effect.ANISOTROPY, Effect.ANISOTROPY_TEXTURE):
@@ -56,10 +53,11 @@ def _anisotropy(material: Material) -> Iterator[tuple[Effect, Verdict]]:
         return
     idle = "the anisotropy strength is 0" if anisotropy.strength == 0.0 else None
     yield Effect.ANISOTROPY, Skip(idle) if idle else None
-    yield Effect.ANISOTROPY_TEXTURE, texture_verdict(anisotropy.texture, "anisotropy texture", idle)
+    effect = Effect.ANISOTROPY_TEXTURE
+    yield effect, texture_verdict(anisotropy.texture, "anisotropy texture", idle, folded.get(effect))
 
 
-def _sheen(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+def _sheen(material: Material, folded: Mapping[Effect, str]) -> Iterator[tuple[Effect, Verdict]]:
     sheen = material.sheen
     if sheen is None:
         for effect in (Effect.SHEEN, Effect.SHEEN_COLOR_TEXTURE, Effect.SHEEN_ROUGHNESS_TEXTURE):
@@ -67,16 +65,16 @@ def _sheen(material: Material) -> Iterator[tuple[Effect, Verdict]]:
         return
     idle = None if any(sheen.color_factor) else "the sheen color factor is 0"
     yield Effect.SHEEN, Skip(idle) if idle else None
-    yield Effect.SHEEN_COLOR_TEXTURE, texture_verdict(sheen.color_texture, "sheen color texture", idle)
+    effect = Effect.SHEEN_COLOR_TEXTURE
+    yield effect, texture_verdict(sheen.color_texture, "sheen color texture", idle, folded.get(effect))
     if sheen.roughness_factor == 0.0:
         idle = idle or "the sheen roughness factor is 0"
-    yield (
-        Effect.SHEEN_ROUGHNESS_TEXTURE,
-        texture_verdict(sheen.roughness_texture, "sheen roughness texture", idle),
-    )
+    effect = Effect.SHEEN_ROUGHNESS_TEXTURE
+    roughness = sheen.roughness_texture
+    yield effect, texture_verdict(roughness, "sheen roughness texture", idle, folded.get(effect))
 
 
-def _clearcoat(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+def _clearcoat(material: Material, folded: Mapping[Effect, str]) -> Iterator[tuple[Effect, Verdict]]:
     coat = material.clearcoat
     if coat is None:
         for effect in (
@@ -89,14 +87,12 @@ def _clearcoat(material: Material) -> Iterator[tuple[Effect, Verdict]]:
         return
     none = "the clearcoat factor is 0" if coat.factor == 0.0 else None
     yield Effect.CLEARCOAT, Skip(none) if none else None
-    yield Effect.CLEARCOAT_TEXTURE, texture_verdict(coat.texture, "clearcoat texture", none)
+    effect = Effect.CLEARCOAT_TEXTURE
+    yield effect, texture_verdict(coat.texture, "clearcoat texture", none, folded.get(effect))
     idle = none or ("the clearcoat roughness factor is 0" if coat.roughness_factor == 0.0 else None)
-    yield (
-        Effect.CLEARCOAT_ROUGHNESS_TEXTURE,
-        texture_verdict(coat.roughness_texture, "clearcoat roughness texture", idle),
-    )
+    effect = Effect.CLEARCOAT_ROUGHNESS_TEXTURE
+    roughness = coat.roughness_texture
+    yield effect, texture_verdict(roughness, "clearcoat roughness texture", idle, folded.get(effect))
     idle = none or ("its scale is 0" if coat.normal_texture and coat.normal_texture.scale == 0.0 else None)
-    yield (
-        Effect.CLEARCOAT_NORMAL_TEXTURE,
-        texture_verdict(coat.normal_texture, "clearcoat normal texture", idle),
-    )
+    normals = texture_verdict(coat.normal_texture, "clearcoat normal texture", idle, None)
+    yield Effect.CLEARCOAT_NORMAL_TEXTURE, normals

@@ -7,19 +7,19 @@ the reflectances still draws fringes. To follow the text to the letter, `khr` dr
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Final
 
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.material.specular import Specular
-from gltf_iri.planning.core import metal_verdict
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.method import Method
+from gltf_iri.planning.reach import Reach, Span
 from gltf_iri.planning.verdict import Skip, Verdict, absent, texture_verdict
 
-__all__ = ["DRAWS_PHANTOM_FRINGES", "film_verdicts", "idle_film"]
+__all__ = ["DRAWS_PHANTOM_FRINGES", "film_verdicts", "idle_film", "verdicts_without_film"]
 
 # Methods under which a film without contrast or thickness is still to be seen.
 DRAWS_PHANTOM_FRINGES: Final = frozenset({"khr"})
@@ -28,57 +28,94 @@ DRAWS_PHANTOM_FRINGES: Final = frozenset({"khr"})
 _OUTSIDE_IOR: Final = 1.0
 
 
-def film_verdicts(material: Material, method: Method) -> Iterator[tuple[Effect, Verdict]]:
-    """Yield the verdicts on the film and on its two textures."""
+def film_verdicts(
+    material: Material, method: Method, reach: Reach | None, folded: Mapping[Effect, str]
+) -> Iterator[tuple[Effect, Verdict]]:
+    """Yield the verdicts on the film and on its two textures.
+
+    reach : what the film meets; None where the textures may hold anything.
+    folded : reasons for what `simplified` has taken out of `material`.
+    """
     iridescence = material.iridescence
     if iridescence is None:
         for effect in (Effect.IRIDESCENCE, Effect.IRIDESCENCE_TEXTURE, Effect.IRIDESCENCE_THICKNESS_TEXTURE):
             yield effect, absent(Iridescence.EXTENSION)
         return
-    film = _film(material, iridescence, method)
+    film = _film(material, iridescence, method, reach)
+    if film is not None:
+        yield from verdicts_without_film(iridescence, film, folded)
+        return
+    yield Effect.IRIDESCENCE, None
+    yield from _textures(iridescence, None, _idle_thickness(iridescence), folded)
+
+
+def verdicts_without_film(
+    iridescence: Iridescence, film: Skip, folded: Mapping[Effect, str]
+) -> Iterator[tuple[Effect, Verdict]]:
+    """Yield the verdicts where the film is left out for the reason `film`."""
     yield Effect.IRIDESCENCE, film
-    no_film = f"there is no film: {film.reason}" if film else None
-    yield (
-        Effect.IRIDESCENCE_TEXTURE,
-        texture_verdict(iridescence.texture, "iridescence texture: the factor holds everywhere", no_film),
-    )
-    idle = no_film
-    if iridescence.thickness_min_nm == iridescence.thickness_max_nm and not film:
-        idle = f"minimum and maximum are both {iridescence.thickness_max_nm:g} nm, so it changes nothing"
-    everywhere = f"thickness texture: the maximum, {iridescence.thickness_max_nm:g} nm, holds everywhere"
-    yield (
-        Effect.IRIDESCENCE_THICKNESS_TEXTURE,
-        texture_verdict(iridescence.thickness_texture, everywhere, idle),
-    )
+    reason = f"there is no film: {film.reason}"
+    yield from _textures(iridescence, reason, reason, folded)
 
 
-def idle_film(material: Material) -> str | None:
+def idle_film(material: Material, reach: Reach | None) -> str | None:
     """Return why physics sees no film although its factor is above 0, or None where it does."""
     film = material.iridescence
     if film is None:
         return None
     if film.film_ior == _OUTSIDE_IOR:
         return "the film's index is the outside's, 1"
-    thickest_nm = film.thickness_max_nm
-    if film.thickness_texture is not None:
-        thickest_nm = max(thickest_nm, film.thickness_min_nm)
-    if thickest_nm == 0.0:
+    if _greatest_thickness_nm(film, reach) == 0.0:
         return "the film's thickness is 0"
-    if film.film_ior == (material.ior or Ior()).ior and _is_plain_dielectric(material):
+    if _is_of_the_base(film, material, reach):
         return f"the film's index is the base's, {film.film_ior:g}"
     return None
 
 
-def _film(material: Material, iridescence: Iridescence, method: Method) -> Skip | None:
+def _textures(
+    iridescence: Iridescence, idle: str | None, idle_thickness: str | None, folded: Mapping[Effect, str]
+) -> Iterator[tuple[Effect, Verdict]]:
+    effect = Effect.IRIDESCENCE_TEXTURE
+    what = "iridescence texture: the factor holds everywhere"
+    yield effect, texture_verdict(iridescence.texture, what, idle, folded.get(effect))
+    effect = Effect.IRIDESCENCE_THICKNESS_TEXTURE
+    what = f"thickness texture: the maximum, {iridescence.thickness_max_nm:g} nm, holds everywhere"
+    yield effect, texture_verdict(iridescence.thickness_texture, what, idle_thickness, folded.get(effect))
+
+
+def _idle_thickness(iridescence: Iridescence) -> str | None:
+    if iridescence.thickness_min_nm != iridescence.thickness_max_nm:
+        return None
+    return f"minimum and maximum are both {iridescence.thickness_max_nm:g} nm, so it changes nothing"
+
+
+def _film(material: Material, iridescence: Iridescence, method: Method, reach: Reach | None) -> Skip | None:
     if iridescence.factor == 0.0:
         texture = ", and its texture can only multiply it" if iridescence.texture else ""
         return Skip(f"the factor is 0{texture}")
-    idle = idle_film(material)
+    idle = idle_film(material, reach)
     if idle is not None and method.name not in DRAWS_PHANTOM_FRINGES:
         return Skip(idle)
     return None
 
 
-def _is_plain_dielectric(material: Material) -> bool:
-    """True where the whole surface is a dielectric whose reflectance is that of its index."""
-    return metal_verdict(material) is not None and material.specular in (None, Specular())
+def _greatest_thickness_nm(film: Iridescence, reach: Reach | None) -> float:
+    if reach is not None:
+        return reach.thickness_nm.high
+    if film.thickness_texture is not None:
+        return max(film.thickness_max_nm, film.thickness_min_nm)
+    return film.thickness_max_nm
+
+
+def _is_of_the_base(film: Iridescence, material: Material, reach: Reach | None) -> bool:
+    """True where every base that the film lies on reflects as a half-space of the film would."""
+    base = Ior(film.film_ior).f0
+    if reach is None:
+        is_plain = material.specular in (None, Specular())
+        return material.pbr.metallic_factor == 0.0 and is_plain and (material.ior or Ior()).f0 == base
+    met: list[Span] = []
+    if reach.metallic.low < 1.0:
+        met += reach.dielectric_f0
+    if reach.metallic.high > 0.0:
+        met += reach.base_color
+    return all(span == Span.at(base) for span in met)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from gltf_iri.material.dispersion import Dispersion
 from gltf_iri.material.ior import Ior
@@ -16,37 +16,31 @@ from gltf_iri.planning.verdict import Skip, Verdict, absent, texture_verdict
 __all__ = ["transmission_verdicts"]
 
 
-def transmission_verdicts(material: Material) -> Iterator[tuple[Effect, Verdict]]:
+def transmission_verdicts(
+    material: Material, folded: Mapping[Effect, str]
+) -> Iterator[tuple[Effect, Verdict]]:
     """Yield the verdicts on transmission, volume and dispersion, and on their textures."""
-    transmission = _transmission(material)
+    transmission = _transmission(material, folded)
     yield Effect.TRANSMISSION, transmission
-    yield (
-        Effect.TRANSMISSION_TEXTURE,
-        texture_verdict(
-            material.transmission.texture if material.transmission else None,
-            "transmission texture",
-            transmission.reason if transmission else None,
-        ),
-    )
+    effect = Effect.TRANSMISSION_TEXTURE
+    info = material.transmission.texture if material.transmission else None
+    idle = transmission.reason if transmission else None
+    yield effect, texture_verdict(info, "transmission texture", idle, folded.get(effect))
     volume = _volume(material, transmission)
     yield Effect.VOLUME, volume
-    yield (
-        Effect.VOLUME_THICKNESS_TEXTURE,
-        texture_verdict(
-            material.volume.thickness_texture if material.volume else None,
-            "thickness texture",
-            volume.reason if volume else None,
-        ),
-    )
+    effect = Effect.VOLUME_THICKNESS_TEXTURE
+    info = material.volume.thickness_texture if material.volume else None
+    idle = volume.reason if volume else None
+    yield effect, texture_verdict(info, "thickness texture", idle, folded.get(effect))
     yield Effect.DISPERSION, _dispersion(material, volume)
 
 
-def _transmission(material: Material) -> Skip | None:
+def _transmission(material: Material, folded: Mapping[Effect, str]) -> Skip | None:
     if material.transmission is None:
         return absent(Transmission.EXTENSION)
     if material.transmission.factor == 0.0:
         return Skip("the transmission factor is 0")
-    no_dielectric = dielectric_verdict(material)
+    no_dielectric = dielectric_verdict(material, folded)
     if no_dielectric:
         return Skip(f"only dielectrics transmit, and {no_dielectric.reason}")
     if (material.ior or Ior()).ior == 0.0:

@@ -36,10 +36,14 @@ def absent(what: str) -> Skip:
     return Skip(f"no {what}", is_absent=True)
 
 
-def texture_verdict(info: TextureInfo | None, what: str, idle: str | None) -> Verdict:
-    """Judge a texture; `idle` says why it would change nothing, None where it would change something."""
+def texture_verdict(info: TextureInfo | None, what: str, idle: str | None, folded: str | None) -> Verdict:
+    """Judge a texture.
+
+    idle : why it would change nothing, None where it would change something.
+    folded : why the factor holds all that the texture says, None where it is a texture still.
+    """
     if info is None:
-        return absent(what)
+        return absent(what) if folded is None else Skip(folded)
     if idle is not None:
         return Skip(idle)
     if info.uv_set >= UV_SETS_READ:
