@@ -16,6 +16,7 @@ from gltf_iri.planning.method import ParameterValue
 
 __all__ = [
     "INDEX_MAX",
+    "THICKNESS_MAX_NM",
     "Base",
     "Dispersion",
     "Evaluation",
@@ -38,7 +39,7 @@ _REFERENCE_NM = 587.56
 
 # Beyond any matter and any film, yet so small that no square, product or ratio of two overflows.
 INDEX_MAX = 1e6
-_THICKNESS_MAX_NM = 1e12
+THICKNESS_MAX_NM = 1e12
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,8 +171,8 @@ class Film:
         cosine, thickness, film, outside = arrays
         if not np.all((cosine >= 0.0) & (cosine <= 1.0)):
             raise UsageError("The cosine of the outside angle must lie in [0, 1].")
-        if not np.all((thickness >= 0.0) & (thickness <= _THICKNESS_MAX_NM)):
-            raise UsageError(f"The film thickness must lie in [0, {_THICKNESS_MAX_NM:g}] nanometres.")
+        if not np.all((thickness >= 0.0) & (thickness <= THICKNESS_MAX_NM)):
+            raise UsageError(f"The film thickness must lie in [0, {THICKNESS_MAX_NM:g}] nanometres.")
         if not all(np.all((index >= 1.0 / INDEX_MAX) & (index <= INDEX_MAX)) for index in (film, outside)):
             raise UsageError(
                 f"The indices of film and outside must lie in [{1.0 / INDEX_MAX:g}, {INDEX_MAX:g}]."
