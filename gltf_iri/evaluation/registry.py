@@ -17,6 +17,7 @@ from gltf_iri.evaluation.bloch import evaluate_bloch
 from gltf_iri.evaluation.film import Evaluation, Film
 from gltf_iri.evaluation.fourier import evaluate_fourier
 from gltf_iri.evaluation.granier_heidrich import evaluate_granier_heidrich
+from gltf_iri.evaluation.incoherent import evaluate_incoherent
 from gltf_iri.evaluation.khr import evaluate_khr
 from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
 from gltf_iri.evaluation.landmarks import evaluate_landmarks, evaluate_landmarks_sub
@@ -24,6 +25,8 @@ from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.naive_rgb import evaluate_naive_rgb
 from gltf_iri.evaluation.smits_meyer import evaluate_smits_meyer
 from gltf_iri.evaluation.spectral import evaluate_spectral
+from gltf_iri.evaluation.spectral_grid import evaluate_spectral_grid
+from gltf_iri.evaluation.yeh_grid import evaluate_yeh_grid
 from gltf_iri.evaluation.yeh_spectral import evaluate_yeh_spectral
 from gltf_iri.planning.method import ParameterValue, find_method
 
@@ -42,8 +45,11 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
         "smits-meyer": evaluate_smits_meyer,
         "bb17": evaluate_bb17,
         "fourier": evaluate_fourier,
+        "spectral-grid": evaluate_spectral_grid,
+        "incoherent": evaluate_incoherent,
         "spectral": evaluate_spectral,
         "yeh-spectral": evaluate_yeh_spectral,
+        "yeh-grid": evaluate_yeh_grid,
         "landmarks": evaluate_landmarks,
         "landmarks-sub": evaluate_landmarks_sub,
         "bloch": evaluate_bloch,

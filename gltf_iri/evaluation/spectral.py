@@ -14,26 +14,26 @@ from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Complex128, Evaluation, Film, Float64, index_by_wavelength
 from gltf_iri.optics.film import film_reflectance
 
-__all__ = ["evaluate_spectral", "film_spectrum"]
+__all__ = ["FilmRows", "evaluate_spectral", "film_spectrum"]
 
 
 def evaluate_spectral(film: Film, white: White) -> Evaluation:
     """Evaluate the truth under `white`; raises UsageError where a spectrum is too fine to be integrated."""
-    flat = _Rows(film)
+    flat = FilmRows(film)
     rgb = integrate_colour(flat.reflectance, flat.count, white=white, opd_nm=flat.opd_nm())
     return Evaluation(rgb.reshape(*film.shape, 3), "spectral", str(white))
 
 
 def film_spectrum(film: Film, wavelength_nm: Float64) -> Float64:
     """Return the reflectance (*film.shape, 3, k) at `wavelength_nm` (k,), channel by channel of the base."""
-    flat = _Rows(film)
+    flat = FilmRows(film)
     values = flat.reflectance(np.arange(flat.count), np.asarray(wavelength_nm, dtype=np.float64))
     if values.ndim == 2:
         values = np.repeat(values[:, :, None], 3, axis=2)
     return np.moveaxis(values, 2, 1).reshape(*film.shape, 3, -1)
 
 
-class _Rows:
+class FilmRows:
     """A film whose broadcast shape is laid out as rows."""
 
     def __init__(self, film: Film) -> None:

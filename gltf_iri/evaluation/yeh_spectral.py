@@ -18,7 +18,7 @@ from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.optics.bragg import bragg_reflectance
 from gltf_iri.optics.refraction import normal_index, normal_index_squared
 
-__all__ = ["evaluate_yeh_spectral", "mirror_spectrum"]
+__all__ = ["MirrorRows", "evaluate_yeh_spectral", "mirror_spectrum"]
 
 Float64 = NDArray[np.float64]
 
@@ -32,19 +32,19 @@ def evaluate_yeh_spectral(mirror: Mirror, white: White) -> Evaluation:
     Colours move by less than COLOUR_CONVERGENCE at 200 cells. Of 10⁶ cells float64 knows the reflectance to
     1e-8 only, and the colour to better than 1e-6; fringes so fine take a minute for each mirror.
     """
-    rows = _Rows(mirror)
+    rows = MirrorRows(mirror)
     rgb = integrate_colour(rows.reflectance, rows.count, white=white, opd_nm=rows.opd_nm())
     return Evaluation(rgb.reshape(*mirror.shape, 3), "yeh-spectral", str(white))
 
 
 def mirror_spectrum(mirror: Mirror, wavelength_nm: Float64) -> Float64:
     """Return the reflectance (*mirror.shape, k) at `wavelength_nm` (k,), the mean of both polarisations."""
-    rows = _Rows(mirror)
+    rows = MirrorRows(mirror)
     wavelength_nm = np.asarray(wavelength_nm, dtype=np.float64)
     return rows.reflectance(np.arange(rows.count), wavelength_nm).reshape(*mirror.shape, len(wavelength_nm))
 
 
-class _Rows:
+class MirrorRows:
     """A mirror whose broadcast shape is laid out as rows."""
 
     def __init__(self, mirror: Mirror) -> None:

@@ -75,6 +75,10 @@ class Method:
         return "METHOD_" + self.name.upper().replace("-", "_")
 
 
+# Bounds and words of the formulas stand here a second time, and a test holds both equal: the formulas import
+# numpy, for which `--help` cannot wait.
+_GRID_SAMPLES = Parameter("samples", "Wavelengths from 360 to 830 nm, evenly spaced.", 31, 3.0, 471.0)
+
 _FILM_METHODS = (
     Method(
         "khr",
@@ -152,6 +156,25 @@ _FILM_METHODS = (
         glsl_tables=("film_sensitivity", "spectral_rule"),
     ),
     Method(
+        "spectral-grid",
+        "film",
+        "Exact Airy reflectance, both polarisations, at a fixed number of evenly spaced wavelengths.",
+        "Belcour & Barla 2017, Eq. 2-3; trapezoidal sums, as spectral renderers and tools take them",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=0.03,
+        parameters=(_GRID_SAMPLES,),
+    ),
+    Method(
+        "incoherent",
+        "film",
+        "The constant term of the Fourier series: the film without its fringes.",
+        "Belcour & Barla 2017, Eq. 5-6, m = 0",
+        is_truth=False,
+        glsl_function="iridescent_fresnel_incoherent",
+        delta_e_mean=10.54,
+    ),
+    Method(
         "spectral",
         "film",
         "Exact Airy reflectance, both polarisations, integrated over the spectrum until it no longer moves.",
@@ -163,8 +186,6 @@ _FILM_METHODS = (
     ),
 )
 
-# Bounds and words of the formulas stand here a second time, and a test holds both equal: the formulas import
-# numpy, for which `--help` cannot wait.
 _ROOT_FINDER = Parameter(
     "root_finder",
     "How landmarks are sought: Newton steps from a closed-form guess, or halvings between modes.",
@@ -182,6 +203,16 @@ _MIRROR_METHODS: tuple[Method, ...] = (
         glsl_function="mirror_colour_yeh_spectral",
         delta_e_mean=0.0,
         glsl_tables=("spectral_rule",),
+    ),
+    Method(
+        "yeh-grid",
+        "mirror",
+        "Exact reflectance of the cells, both polarisations, at a fixed number of evenly spaced wavelengths.",
+        "Yeh 1988; trapezoidal sums, as spectral renderers and tools take them",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=3.68,  # 20 cells
+        parameters=(_GRID_SAMPLES,),
     ),
     Method(
         "landmarks",

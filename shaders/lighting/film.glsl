@@ -1,5 +1,7 @@
-// The film's reflectance over one base, by the method that the plan chose.
+// The film's reflectance over each lobe's base: out of a table where there is one, else by the method that the plan
+// chose. Outside is air: KHR_materials_iridescence ignores a clearcoat's interface.
 
+#include "lighting/lobe.glsl"
 #include "material/surface.glsl"
 
 #ifdef METHOD_KHR
@@ -22,8 +24,28 @@
 #include "optics/granier_heidrich.glsl"
 #define FILM_FRESNEL iridescent_fresnel_granier_heidrich
 #endif
+#if defined(DIELECTRIC_TABLE) || defined(METAL_TABLE)
+#include "lighting/film_table.glsl"
+#endif
 
-// Outside is air: KHR_materials_iridescence ignores a clearcoat's interface.
-vec3 film_fresnel(Surface s, vec3 base_f0, float cos_theta) {
-    return FILM_FRESNEL(1.0, s.film_ior, base_f0, s.iridescence_thickness_nm, cos_theta);
+#ifdef HAS_DIELECTRIC
+// The film's base has the specular weight in its F0.
+vec3 film_over_dielectric(Surface s, Lobe lobe) {
+    vec3 base_f0 = s.specular_weight * s.dielectric_f0;
+#ifdef DIELECTRIC_TABLE
+    return dielectric_table(s, base_f0, lobe);
+#else
+    return FILM_FRESNEL(1.0, s.film_ior, base_f0, s.iridescence_thickness_nm, lobe.facet_cosine);
+#endif
 }
+#endif
+
+#ifdef HAS_METAL
+vec3 film_over_metal(Surface s, Lobe lobe) {
+#ifdef METAL_TABLE
+    return metal_table(s, s.base_color, lobe);
+#else
+    return FILM_FRESNEL(1.0, s.film_ior, s.base_color, s.iridescence_thickness_nm, lobe.facet_cosine);
+#endif
+}
+#endif

@@ -20,7 +20,8 @@ from gltf_iri.tolerances import GLSL_BRANCH_ULP, GLSL_OPTICS_MAX_ABS
 PYTHON = {"khr": evaluate_khr, "khr-guarded": evaluate_khr_guarded}
 
 # Compared in the files of tests beside this one that have their names.
-ELSEWHERE = {"fourier", "spectral", "granier-heidrich", "yeh-spectral", "landmarks", "landmarks-sub", "bloch"}
+ELSEWHERE = {"fourier", "spectral", "incoherent", "granier-heidrich"}
+ELSEWHERE |= {"yeh-spectral", "landmarks", "landmarks-sub", "bloch"}
 
 POLE = "Fresnel0ToIor"  # the undefined case in which the text divides by zero
 

@@ -7,6 +7,7 @@ import inspect
 import numpy as np
 import pytest
 
+from gltf_iri.colour.wavelength_grid import GRID_SAMPLES_MAX, GRID_SAMPLES_MIN
 from gltf_iri.colour.wavenumber_rule import SAMPLES_MAX, SAMPLES_MIN
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0, base_from_ior
@@ -32,9 +33,16 @@ def test_evaluators_take_what_their_descriptors_say_with_the_same_defaults(name:
 
 
 def test_bounds_and_words_are_those_of_the_formulas() -> None:
-    described = {each.name: each for method in METHODS.values() for each in method.parameters}
-    assert described["root_finder"].choices == ROOT_FINDERS
-    assert (described["samples"].minimum, described["samples"].maximum) == (SAMPLES_MIN, SAMPLES_MAX)
+    described = {(name, each.name): each for name, method in METHODS.items() for each in method.parameters}
+    assert described["landmarks", "root_finder"].choices == ROOT_FINDERS
+    ranges = {
+        "bloch": (SAMPLES_MIN, SAMPLES_MAX),
+        "spectral-grid": (GRID_SAMPLES_MIN, GRID_SAMPLES_MAX),
+        "yeh-grid": (GRID_SAMPLES_MIN, GRID_SAMPLES_MAX),
+    }
+    for name, limits in ranges.items():
+        samples = described[name, "samples"]
+        assert (samples.minimum, samples.maximum) == limits
 
 
 @pytest.mark.parametrize("name", method_names("film"))

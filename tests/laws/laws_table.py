@@ -25,6 +25,8 @@ _ONE_WAVELENGTH = "one wavelength a channel: fringes never fade"
 _TWO_BEAMS = "two beams without inter-reflections are not a passive surface"
 _NO_BASE = "its base plays no part: the film's inner side reflects all that enters"
 _THREE_ORDERS = "three orders leave the rest out, which bright interfaces show"
+_NO_PHASE = "it knows no phase, and no film is so thin or so plain that it had none"
+_TOO_FEW = "wavelengths some nanometres apart alias fine fringes"
 _TWO_LOBES = "R + T is nearly 1 before 2√(RT) is added: both lobes together pass 1"
 
 _FILMS: dict[str, Reasons] = {
@@ -61,14 +63,18 @@ _FILMS: dict[str, Reasons] = {
         "no more than white": _THREE_ORDERS,
     },
     "fourier": {},
+    "spectral-grid": {"fine fringes": _TOO_FEW},
+    "incoherent": {"no thickness": _NO_PHASE},
     "spectral": {},
 }
 
+_FIXED_GRID = "sums over few wavelengths are not the integral that the slab is compared by"
 _ENVELOPE = "it colours the envelope of many cells, not the fringes of these"
 _NEARLY = "an approximation of the integral, here within 1e-3 of it"
 
 _MIRRORS: dict[str, Reasons] = {
     "yeh-spectral": {},
+    "yeh-grid": {"one cell": _FIXED_GRID},
     "landmarks": {"one cell": _ENVELOPE},
     "landmarks-sub": {"one cell": _ENVELOPE},
     "bloch": {"one cell": _NEARLY, "no more than white": _NEARLY},
@@ -114,8 +120,11 @@ MADE_OF: dict[str, str] = {
     "naive-rgb": "naive-rgb",
     "bb17": _TERM_BY_TERM,
     "fourier": _TERM_BY_TERM,
+    "incoherent": "it knows no wavelength",
     "smits-meyer": "its fringe is integrated over wavelengths as one cosine",
+    "spectral-grid": "optics/film",
     "spectral": "optics/film",
+    "yeh-grid": "optics/bragg",
     "yeh-spectral": "optics/bragg",
     "landmarks": "its boxes are integrals between wavelengths",
     "landmarks-sub": "its boxes are integrals between wavelengths",
