@@ -10,13 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.backends import has_numba
-from gltf_iri.bench.settings import Settings, settings_of, with_defaults
 from gltf_iri.bench.timing import interleaved_ns
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import METHODS, parameters_text
+from gltf_iri.planning.settings import Settings, settings_of, with_defaults
 
 __all__ = ["WHITE", "ColourRow", "Contestant", "colour_row", "colour_rows", "registered"]
 __all__ += ["with_ratios"]

@@ -9,11 +9,11 @@ from gltf_iri.bench import films, mirrors
 from gltf_iri.bench.colour_rows import WHITE, ColourRow, colour_row, with_ratios
 from gltf_iri.bench.film_set import film_set
 from gltf_iri.bench.mirror_set import mirror_set
-from gltf_iri.bench.settings import Settings, settings_of, with_defaults
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import METHODS, Domain, method_names
+from gltf_iri.planning.settings import Settings, settings_of, with_defaults
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.rendering.timing import time_twins
 

@@ -11,11 +11,11 @@ from gltf_iri.backends import has_numba
 from gltf_iri.bench.colour_rows import WHITE, ColourRow, Contestant, colour_rows, registered, with_ratios
 from gltf_iri.bench.landmark_cost import landmark_cost
 from gltf_iri.bench.mirror_set import LOW_CONTRAST_CELLS, MIRROR_CELLS, low_contrast_set, mirror_set
-from gltf_iri.bench.settings import Settings
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.landmarks import ROOT_FINDERS
 from gltf_iri.planning.method import METHODS, method_names
+from gltf_iri.planning.settings import Settings
 
 __all__ = ["MIRROR_ROUNDS", "MIRROR_WORKLOADS", "RATIO_TO", "landmark_parts", "measure_mirrors"]
 

@@ -10,9 +10,9 @@ from gltf_iri.bench import mirrors
 from gltf_iri.bench.colour_rows import ColourRow
 from gltf_iri.bench.landmark_cost import landmark_cost
 from gltf_iri.bench.mirrors import MIRROR_WORKLOADS, landmark_parts, measure_mirrors
-from gltf_iri.bench.settings import SETTINGS, settings_of, with_defaults
 from gltf_iri.optics.landmarks import ROOT_FINDERS
 from gltf_iri.planning.method import METHODS, method_names
+from gltf_iri.planning.settings import SETTINGS, settings_of, with_defaults
 
 STATED_ON = "mirrors-20"  # what METHODS' delta_e_mean of mirrors speaks of
 

@@ -1,4 +1,4 @@
-"""Which of a method's parameters are worth rows of their own in a benchmark."""
+"""Which settings of a method are worth measuring: rows of the benchmarks, and what a budget chooses among."""
 
 from __future__ import annotations
 
