@@ -2,23 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, Final
 
 from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.film_table import FilmTable, Lobe, Quantity
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import find_method
 
 if TYPE_CHECKING:
     from gltf_iri.scene.model import Environment, Primitive, Scene
 
-__all__ = ["LAYERING_SPECULAR", "permutation", "plan_scene_effects", "primitive_effects"]
+__all__ = ["FILM_FACET_MEAN", "FILM_SWITCHES", "LAYERING_SPECULAR", "permutation", "plan_scene_effects"]
+__all__ += ["film_lobes", "primitive_effects"]
 
 # The dielectric layering of the text's KHR_materials_specular section; without it, the core section's.
 LAYERING_SPECULAR: Final = "LAYERING_SPECULAR"
 
 # What is laid out along the tangents.
 _TANGENT_READERS: Final = (Effect.NORMAL_TEXTURE, Effect.ANISOTROPY, Effect.CLEARCOAT_NORMAL_TEXTURE)
+
+# Image light asks for the film at the mean cosine of the facets that send it, in place of N·V.
+FILM_FACET_MEAN: Final = "FILM_FACET_MEAN"
+
+_LOBES: Final[Mapping[Lobe, Effect]] = {"dielectric": Effect.DIELECTRIC, "metal": Effect.METAL}
+
+# What a table's switches end in, for each axis beside cosθ; then for three and for four axes.
+_AXES: Final[Mapping[Quantity, str]] = {
+    "thickness_nm": "_THICKNESS",
+    "base_f0": "_BASE",
+    "roughness": "_ROUGHNESS",
+    "spread_nm": "_SPREAD",
+}
+_SHAPES: Final = {3: ("_3D",), 4: ("_3D", "_4D")}
+
+# All that `permutation` may define about a film beside its effects and its method.
+FILM_SWITCHES: Final = frozenset(
+    {FILM_FACET_MEAN}
+    | {f"{lobe.upper()}_TABLE{end}" for lobe in _LOBES for end in ("", *_AXES.values(), *_SHAPES[4])}
+)
 
 _LIGHTS: Final = (Effect.PUNCTUAL_LIGHTS, Effect.IMAGE_LIGHT)
 
@@ -60,7 +82,26 @@ def permutation(
         seen.discard(Effect.OCCLUSION_TEXTURE)
     defines = [effect.define for effect in Effect if effect in seen]
     if plan.method is not None:
-        defines.append(find_method(plan.method).define)
+        defines += _film_defines(plan, plan.method, seen)
     if plan.layering == "specular" and Effect.DIELECTRIC in seen:
         defines.append(LAYERING_SPECULAR)
     return tuple(defines)
+
+
+def film_lobes(plan: MaterialPlan) -> dict[Lobe, FilmTable | None]:
+    """Return the lobes that carry the film, each with its table; None where the film is computed directly."""
+    return {lobe: plan.table(lobe) for lobe, effect in _LOBES.items() if plan.calls_for(effect)}
+
+
+def _film_defines(plan: MaterialPlan, method: str, seen: Collection[Effect]) -> Iterator[str]:
+    tables = film_lobes(plan)
+    if None in tables.values():
+        yield find_method(method).define
+    for lobe, table in tables.items():
+        if table is not None:
+            shape = _SHAPES.get(len(table.axes), ())
+            axes = (_AXES[axis.quantity] for axis in table.axes[1:])
+            yield from (f"{lobe.upper()}_TABLE{end}" for end in ("", *axes, *shape))
+    is_mean = any(table is None or table.axis("roughness") is None for table in tables.values())
+    if plan.way is not None and is_mean and not {Effect.IMAGE_LIGHT, Effect.TRANSMISSION}.isdisjoint(seen):
+        yield FILM_FACET_MEAN

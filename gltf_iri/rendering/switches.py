@@ -10,7 +10,7 @@ from typing import Final
 
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.method import METHODS
-from gltf_iri.planning.permutation import LAYERING_SPECULAR
+from gltf_iri.planning.permutation import FILM_SWITCHES, LAYERING_SPECULAR
 
 __all__ = ["LAYER_INPUTS", "SHADING_INPUTS", "SWITCHES"]
 
@@ -22,5 +22,6 @@ LAYER_INPUTS: Final = "LAYER_INPUTS"
 SWITCHES: Final = frozenset(
     {effect.define for effect in Effect}
     | {m.define for m in METHODS.values() if m.glsl_function and m.domain == "film"}
+    | FILM_SWITCHES
     | {LAYERING_SPECULAR, SHADING_INPUTS, LAYER_INPUTS}
 )

@@ -24,6 +24,10 @@
 #include "optics/granier_heidrich.glsl"
 #define FILM_FRESNEL iridescent_fresnel_granier_heidrich
 #endif
+#ifdef METHOD_INCOHERENT
+#include "optics/incoherent.glsl"
+#define FILM_FRESNEL iridescent_fresnel_incoherent
+#endif
 #if defined(DIELECTRIC_TABLE) || defined(METAL_TABLE)
 #include "lighting/film_table.glsl"
 #endif

@@ -64,7 +64,12 @@ ImageLight image_light(Surface s, View w) {
 }
 
 vec3 image_lighting(Surface s, View w, ImageLight image) {
-    Lobe lobe = Lobe(w.n_dot_v, image.dfg.x, image.dfg.y);
+#ifdef FILM_FACET_MEAN
+    float facet_cosine = image.facet_cosine;
+#else
+    float facet_cosine = w.n_dot_v;
+#endif
+    Lobe lobe = Lobe(w.n_dot_v, facet_cosine, s.perceptual_roughness, image.dfg.x, image.dfg.y);
 #ifdef HAS_TRANSMISSION
     vec3 sent = mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance, image.transmitted));
 #else

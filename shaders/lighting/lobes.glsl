@@ -1,6 +1,7 @@
 // The one place where the base's lobes are mixed, for punctual and for image light.
 // Sources: glTF 2.0 Appendix B.2; KHR_materials_specular; KHR_materials_transmission.
 
+#include "lighting/lobe.glsl"
 #include "material/layering.glsl"
 #include "material/surface.glsl"
 #ifdef HAS_TRANSMISSION
@@ -11,14 +12,6 @@
 #include "material/film_layering.glsl"
 #endif
 
-// How a lobe turns F0 into a reflectance: plain = F0·slope + offset, film = F(cosθ)·(slope + offset).
-// A facet at V·H has slope 1 − w and offset w, w = (1 − V·H)⁵ (Schlick); image light has the DFG table's A and B.
-struct Lobe {
-    float cos_theta;  // the film's outside angle
-    float slope;
-    float offset;
-};
-
 // What white, lossless surfaces would send to the viewer.
 struct WhiteLight {
     vec3 diffuse;
@@ -28,19 +21,13 @@ struct WhiteLight {
 #endif
 };
 
-Lobe facet_lobe(float v_dot_h) {
-    float grazing = pow5(1.0 - v_dot_h);
-    return Lobe(v_dot_h, 1.0 - grazing, grazing);
-}
-
 vec3 plain_reflectance(Lobe lobe, vec3 f0) { return f0 * lobe.slope + lobe.offset; }
 
 #ifdef HAS_DIELECTRIC
-// The film's base has the specular weight in its F0.
 Layer dielectric_layer(Surface s, Lobe lobe) {
     vec3 plain = plain_reflectance(lobe, s.dielectric_f0);
 #ifdef HAS_IRIDESCENCE
-    vec3 film = film_fresnel(s, s.specular_weight * s.dielectric_f0, lobe.cos_theta) * (lobe.slope + lobe.offset);
+    vec3 film = film_over_dielectric(s, lobe) * (lobe.slope + lobe.offset);
 #ifdef LAYERING_SPECULAR
     return iridescent_dielectric_layer_specular(s.iridescence_factor, s.specular_weight, plain, film);
 #else
@@ -56,7 +43,7 @@ Layer dielectric_layer(Surface s, Lobe lobe) {
 vec3 metal_reflectance(Surface s, Lobe lobe) {
     vec3 plain = plain_reflectance(lobe, s.base_color);
 #ifdef HAS_IRIDESCENCE
-    vec3 film = film_fresnel(s, s.base_color, lobe.cos_theta) * (lobe.slope + lobe.offset);
+    vec3 film = film_over_metal(s, lobe) * (lobe.slope + lobe.offset);
     return iridescent_conductor_layer(s.iridescence_factor, plain, film);
 #else
     return plain;
