@@ -24,7 +24,8 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 # Python's check for a zero divisor keeps the compiler from using vector instructions; numpy's rules (∞, NaN)
 # do not. Of the liberties with floating point only fused multiply-add is taken: sums keep their order.
-_OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
+# Loops touch their arrays only, so that Python's other threads may run meanwhile.
+_OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}, "nogil": True}
 
 
 def loop(function: Function) -> Function:
