@@ -62,6 +62,7 @@ def surface_of_pixels(inputs: ShadingInputs, mask: Mask, camera: Camera) -> Surf
         iridescence_factor=take("iridescence_factor"),
         # Filtering may round below 0.
         iridescence_thickness_nm=np.maximum(take("iridescence_thickness_nm"), 0.0),
+        iridescence_thickness_std_nm=take("iridescence_thickness_std_nm"),
         anisotropy_strength=take("anisotropy_strength"),
         anisotropy_tangent=take("anisotropy_tangent"),
         transmission=take("transmission"),

@@ -54,6 +54,8 @@ _OWN_GUARD: Mapping[str, str] = {
     "emissive_factor": "HAS_EMISSION",
 }
 
+# Textures of which the shader reads moments under a define; E[t] lies where t would.
+_MOMENTS_UNDER: Mapping[str, str] = {"iridescence_thickness": "HAS_IRIDESCENCE_THICKNESS_SPREAD"}
 
 # Number of components to type.
 _GLSL_TYPES: Mapping[int, str] = {1: "float", 2: "vec2", 3: "vec3", 4: "vec4"}
@@ -87,10 +89,15 @@ class Sampler:
 
 @dataclass(frozen=True, slots=True)
 class TextureBinding:
-    """What to bind to a sampler: an index into glTF's textures, decoded from this colour space."""
+    """What to bind to a sampler: an index into glTF's textures, decoded from this colour space.
+
+    moments_of : the channel, one of "rgba", of which the shader reads E[t²] in R and E[t] in G, averaged over
+        what a pixel spans; "" for the texels themselves.
+    """
 
     texture: int
     colour_space: ColourSpace
+    moments_of: str = ""
 
 
 def _reader(part: str, attribute: str, cls: type) -> Callable[[Material], Any]:
@@ -205,7 +212,9 @@ def material_textures(material: Material, defines: Collection[str]) -> dict[str,
     for sampler in SAMPLERS:
         info = sampler.read(material) if _is_on(sampler.guard, defines) else None
         if info is not None:
-            bindings[sampler.name] = TextureBinding(info.texture, sampler.row.colour_space)
+            is_spread = _MOMENTS_UNDER.get(sampler.slot) in defines
+            moments_of = sampler.row.channels if is_spread else ""
+            bindings[sampler.name] = TextureBinding(info.texture, sampler.row.colour_space, moments_of)
     return bindings
 
 

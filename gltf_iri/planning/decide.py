@@ -2,53 +2,64 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
 from gltf_iri.errors import UsageError
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import DEFAULT_MATERIAL, Material
-from gltf_iri.planning.core import core_verdicts
-from gltf_iri.planning.effects import MATERIAL_EFFECTS, Effect
-from gltf_iri.planning.extensions import extension_verdicts
-from gltf_iri.planning.film import (
-    DRAWS_PHANTOM_FRINGES,
-    film_verdicts,
-    idle_film,
-    verdicts_without_film,
-)
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, idle_film, verdicts_without_film
+from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.material_reach import material_reach, vertex_colour_spans
 from gltf_iri.planning.method import DEFAULT_METHOD, Method, find_method
 from gltf_iri.planning.reach import Reach
-from gltf_iri.planning.transmission import transmission_verdicts
+from gltf_iri.planning.simplify import simplified
 from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict
+from gltf_iri.planning.verdicts import material_verdicts
 from gltf_iri.planning.way import Way
 
 if TYPE_CHECKING:
+    from gltf_iri.asset.document import Document
     from gltf_iri.scene.model import Scene
 
 __all__ = ["complete_plans", "plan_material", "plan_materials"]
-
-# What an unlit material still does.
-_SEEN_UNLIT: Final = frozenset(
-    {
-        Effect.UNLIT,
-        Effect.BASE_COLOR_TEXTURE,
-        Effect.ALPHA_MASK,
-        Effect.ALPHA_BLEND,
-        Effect.DOUBLE_SIDED,
-    }
-)
 
 _NOTHING: Final[Mapping[Effect, str]] = MappingProxyType({})
 
 _SPECULAR_GLOSSINESS: Final = "KHR_materials_pbrSpecularGlossiness"
 
 
-def plan_materials(materials: Iterable[Material], *, method: str | None = None) -> tuple[MaterialPlan, ...]:
-    """Return the plan of each material; see `plan_material`."""
-    return tuple(plan_material(material, index, method=method) for index, material in enumerate(materials))
+def plan_materials(
+    materials: Sequence[Material],
+    *,
+    method: str | None = None,
+    document: Document | None = None,
+    scene: Scene | None = None,
+    with_unused: bool = False,
+) -> tuple[MaterialPlan, ...]:
+    """Return the plan of each material, and at their end what `complete_plans` adds for `scene`.
+
+    document : of the materials: their textures are decoded and looked at, and those that hold one value are
+        folded into factors. Without, or where an image is broken, textures may hold anything.
+    scene : the colours of its vertices count; without one, none do.
+    with_unused : decode the textures of materials that `scene` does not use, too.
+
+    Raises what `plan_material` does.
+    """
+    used = None if scene is None or with_unused else {p.material for p in scene.primitives}
+    colours = {} if scene is None else vertex_colour_spans(scene)
+    plans = []
+    for index, material in enumerate(materials):
+        if document is None or (used is not None and index not in used):
+            plans.append(plan_material(material, index, method=method))
+            continue
+        drawn, folded = simplified(material, document)
+        reach = material_reach(drawn, document, colours.get(index))
+        plans.append(plan_material(drawn, index, method=method, reach=reach, folded=folded))
+    return tuple(plans) if scene is None else complete_plans(plans, scene)
 
 
 def complete_plans(plans: Sequence[MaterialPlan], scene: Scene) -> tuple[MaterialPlan, ...]:
@@ -89,7 +100,7 @@ def plan_material(
     """
     name = method if way is None else way.method
     descriptor = find_method(DEFAULT_METHOD if name is None else name, "film")
-    decided = dict(_verdicts(material, descriptor, reach, folded))
+    decided = dict(_verdicts(material, descriptor, reach, way, folded))
     verdicts: dict[Effect, Verdict] = {effect: decided[effect] for effect in MATERIAL_EFFECTS}
     if way is not None and way.method is None and material.iridescence and not verdicts[Effect.IRIDESCENCE]:
         verdicts |= verdicts_without_film(material.iridescence, Skip(way_reason), folded)
@@ -110,28 +121,18 @@ def plan_material(
         absent=frozenset(e for e, v in verdicts.items() if isinstance(v, Skip) and v.is_absent),
         material=material,
         way=way,
+        grey=_grey(reach) if film is None else frozenset(),
     )
 
 
-def _verdicts(
-    material: Material, method: Method, reach: Reach | None, folded: Mapping[Effect, str]
-) -> Iterator[tuple[Effect, Verdict]]:
-    for decided in (
-        core_verdicts(material, folded),
-        extension_verdicts(material, folded),
-        film_verdicts(material, method, reach, folded),
-        transmission_verdicts(material, folded),
-    ):
-        for effect, verdict in decided:
-            yield effect, _under_unlit(effect, verdict) if material.unlit is not None else verdict
-
-
-def _under_unlit(effect: Effect, verdict: Verdict) -> Verdict:
-    if effect in _SEEN_UNLIT or (isinstance(verdict, Skip) and verdict.is_absent):
-        return verdict
-    if effect is Effect.IRIDESCENCE:
-        return Skip(f"the material is unlit, which {Iridescence.EXTENSION} excludes")
-    return Skip("the material is unlit")
+def _grey(reach: Reach | None) -> frozenset[Lobe]:
+    if reach is None:
+        return frozenset()
+    lobes: tuple[tuple[Lobe, bool], ...] = (
+        ("dielectric", reach.is_dielectric_grey),
+        ("metal", reach.is_metal_grey),
+    )
+    return frozenset(lobe for lobe, is_grey in lobes if is_grey)
 
 
 def _method_reason(

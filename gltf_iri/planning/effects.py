@@ -42,6 +42,7 @@ class Effect(Enum):
     IRIDESCENCE = "iridescence"
     IRIDESCENCE_TEXTURE = "iridescence-texture"
     IRIDESCENCE_THICKNESS_TEXTURE = "iridescence-thickness-texture"
+    IRIDESCENCE_THICKNESS_SPREAD = "iridescence-thickness-spread"
     ANISOTROPY = "anisotropy"
     ANISOTROPY_TEXTURE = "anisotropy-texture"
     TRANSMISSION = "transmission"

@@ -17,28 +17,38 @@ from gltf_iri.material.specular import Specular
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.method import Method
 from gltf_iri.planning.reach import Reach, Span
+from gltf_iri.planning.spread import spread_verdict
 from gltf_iri.planning.verdict import Skip, Verdict, absent, texture_verdict
+from gltf_iri.planning.way import Way
 
 __all__ = ["DRAWS_PHANTOM_FRINGES", "film_verdicts", "idle_film", "verdicts_without_film"]
 
 # Methods under which a film without contrast or thickness is still to be seen.
 DRAWS_PHANTOM_FRINGES: Final = frozenset({"khr"})
 
+_EFFECTS: Final = (
+    Effect.IRIDESCENCE,
+    Effect.IRIDESCENCE_TEXTURE,
+    Effect.IRIDESCENCE_THICKNESS_TEXTURE,
+    Effect.IRIDESCENCE_THICKNESS_SPREAD,
+)
+
 # KHR_materials_iridescence lets the film lie under air, also under a clearcoat.
 _OUTSIDE_IOR: Final = 1.0
 
 
 def film_verdicts(
-    material: Material, method: Method, reach: Reach | None, folded: Mapping[Effect, str]
+    material: Material, method: Method, reach: Reach | None, way: Way | None, folded: Mapping[Effect, str]
 ) -> Iterator[tuple[Effect, Verdict]]:
-    """Yield the verdicts on the film and on its two textures.
+    """Yield the verdicts on the film, on its two textures and on the spread of its thickness.
 
     reach : what the film meets; None where the textures may hold anything.
+    way : how the film is computed; None for the method itself.
     folded : reasons for what `simplified` has taken out of `material`.
     """
     iridescence = material.iridescence
     if iridescence is None:
-        for effect in (Effect.IRIDESCENCE, Effect.IRIDESCENCE_TEXTURE, Effect.IRIDESCENCE_THICKNESS_TEXTURE):
+        for effect in _EFFECTS:
             yield effect, absent(Iridescence.EXTENSION)
         return
     film = _film(material, iridescence, method, reach)
@@ -46,7 +56,10 @@ def film_verdicts(
         yield from verdicts_without_film(iridescence, film, folded)
         return
     yield Effect.IRIDESCENCE, None
-    yield from _textures(iridescence, None, _idle_thickness(iridescence), folded)
+    textures = _textures(iridescence, None, _idle_thickness(iridescence), folded)
+    yield from textures.items()
+    thickness = textures[Effect.IRIDESCENCE_THICKNESS_TEXTURE]
+    yield Effect.IRIDESCENCE_THICKNESS_SPREAD, spread_verdict(thickness, method, reach, way)
 
 
 def verdicts_without_film(
@@ -55,7 +68,9 @@ def verdicts_without_film(
     """Yield the verdicts where the film is left out for the reason `film`."""
     yield Effect.IRIDESCENCE, film
     reason = f"there is no film: {film.reason}"
-    yield from _textures(iridescence, reason, reason, folded)
+    textures = _textures(iridescence, reason, reason, folded)
+    yield from textures.items()
+    yield Effect.IRIDESCENCE_THICKNESS_SPREAD, textures[Effect.IRIDESCENCE_THICKNESS_TEXTURE]
 
 
 def idle_film(material: Material, reach: Reach | None) -> str | None:
@@ -74,13 +89,15 @@ def idle_film(material: Material, reach: Reach | None) -> str | None:
 
 def _textures(
     iridescence: Iridescence, idle: str | None, idle_thickness: str | None, folded: Mapping[Effect, str]
-) -> Iterator[tuple[Effect, Verdict]]:
-    effect = Effect.IRIDESCENCE_TEXTURE
-    what = "iridescence texture: the factor holds everywhere"
-    yield effect, texture_verdict(iridescence.texture, what, idle, folded.get(effect))
-    effect = Effect.IRIDESCENCE_THICKNESS_TEXTURE
-    what = f"thickness texture: the maximum, {iridescence.thickness_max_nm:g} nm, holds everywhere"
-    yield effect, texture_verdict(iridescence.thickness_texture, what, idle_thickness, folded.get(effect))
+) -> dict[Effect, Verdict]:
+    strength, thickness = Effect.IRIDESCENCE_TEXTURE, Effect.IRIDESCENCE_THICKNESS_TEXTURE
+    everywhere = "iridescence texture: the factor holds everywhere"
+    of_strength = texture_verdict(iridescence.texture, everywhere, idle, folded.get(strength))
+    everywhere = f"thickness texture: the maximum, {iridescence.thickness_max_nm:g} nm, holds everywhere"
+    of_thickness = texture_verdict(
+        iridescence.thickness_texture, everywhere, idle_thickness, folded.get(thickness)
+    )
+    return {strength: of_strength, thickness: of_thickness}
 
 
 def _idle_thickness(iridescence: Iridescence) -> str | None:

@@ -69,6 +69,7 @@ def gather_surface(stage: Stage, slot: int, points: Points, view: Float64) -> Su
         specular_weight=specular_weight,
         iridescence_factor=iridescence,
         iridescence_thickness_nm=thickness_nm,
+        iridescence_thickness_std_nm=reader.fill(0.0),  # a ray meets the film in one point
         anisotropy_strength=strength,
         anisotropy_tangent=tangent,
         transmission=transmission,

@@ -36,6 +36,7 @@ class Surface:
     specular_weight: Float64
     iridescence_factor: Float64
     iridescence_thickness_nm: Float64
+    iridescence_thickness_std_nm: Float64  # within what the point stands for; a ray's point has no size
     anisotropy_strength: Float64
     anisotropy_tangent: Float64  # unit, in the surface; 0 where the mesh has neither tangents nor coordinates
     transmission: Float64

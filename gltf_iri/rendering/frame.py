@@ -27,14 +27,15 @@ INPUT_TARGETS: tuple[tuple[str, str], ...] = (
     ("emission", "iridescence_thickness_nm"),
 )
 
-# A second set, drawn only where a plan calls for transmission, clearcoat, sheen or anisotropy. Image light
-# with occlusion, as above; "" pads.
+# A second set, drawn only where a plan calls for transmission, clearcoat, sheen, anisotropy or a spread of
+# thickness. Image light with occlusion, as above; "" pads.
 LAYER_INPUT_TARGETS: tuple[tuple[str, str], ...] = (
     ("transmitted_radiance", "transmission"),  # along the refracted direction, after absorption inside
     ("clearcoat_normal", "clearcoat"),  # unit, turned towards the viewer
     ("clearcoat_radiance", "clearcoat_roughness"),  # prefiltered, along the coat's mirror direction
     ("sheen_color", "sheen_roughness"),
-    ("sheen_radiance", ""),  # prefiltered with the fibres' lobe
+    # Prefiltered with the fibres' lobe; the film's, within the pixel, 0 where the plan has no spread.
+    ("sheen_radiance", "iridescence_thickness_std_nm"),
     ("anisotropy_tangent", "anisotropy_strength"),  # world space, unit, in the surface; 0 where there is none
     ("layer_albedos", ""),  # clearcoat: A and B at Nc·V; sheen: directional albedo at N·V
 )
@@ -72,6 +73,7 @@ class ShadingInputs:
     sheen_color: Float32
     sheen_roughness: Float32
     sheen_radiance: Float32
+    iridescence_thickness_std_nm: Float32
     anisotropy_tangent: Float32
     anisotropy_strength: Float32
     layer_albedos: Float32

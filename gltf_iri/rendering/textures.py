@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from gltf_iri.colour.transfer import srgb_decode
 from gltf_iri.errors import MissingCapabilityError
 from gltf_iri.material.interface import TextureBinding
+from gltf_iri.rendering.moments import moment_levels
 
 if TYPE_CHECKING:
     import moderngl
@@ -25,6 +26,7 @@ _SRGB8_ALPHA8: Final = 0x8C43
 _TEXTURE_2D: Final = 0x0DE1
 _TEXTURE_WRAP_S: Final = 0x2802
 _TEXTURE_WRAP_T: Final = 0x2803
+_LINEAR_MIPMAP_LINEAR: Final = 0x2703
 _WITHOUT_MIPMAPS: Final = frozenset({0x2600, 0x2601})  # NEAREST, LINEAR
 
 
@@ -49,14 +51,20 @@ class TextureStore:
         self._document = document
         self._float_textures = float_textures
         self._base_level_only = base_level_only
-        self._textures: dict[tuple[Texture, str], moderngl.Texture] = {}
+        self._textures: dict[tuple[Texture, str, str], moderngl.Texture] = {}
 
     def get(self, binding: TextureBinding) -> moderngl.Texture:
         """Return the texture of `binding`; MissingCapabilityError where OpenGL takes none so large."""
         sampler = self._document.texture(binding.texture)
-        key = (sampler, binding.colour_space)
+        key = (sampler, binding.colour_space, binding.moments_of)
         if key not in self._textures:
-            self._textures[key] = self._upload(sampler, is_srgb=binding.colour_space == "srgb")
+            pixels = self._pixels(sampler)
+            if binding.moments_of:
+                texture = self._moments(pixels[..., "rgba".index(binding.moments_of)], sampler)
+            else:
+                texture = self._texels(pixels, sampler, is_srgb=binding.colour_space == "srgb")
+            _set_wrapping(texture, sampler)
+            self._textures[key] = texture
         return self._textures[key]
 
     def release(self) -> None:
@@ -65,7 +73,7 @@ class TextureStore:
             texture.release()
         self._textures.clear()
 
-    def _upload(self, sampler: Texture, *, is_srgb: bool) -> moderngl.Texture:
+    def _pixels(self, sampler: Texture) -> NDArray[np.uint8]:
         pixels = self._document.image(sampler.image).pixels
         height, width = pixels.shape[:2]
         limit = self._context.info["GL_MAX_TEXTURE_SIZE"]
@@ -73,7 +81,10 @@ class TextureStore:
             raise MissingCapabilityError(
                 f"/images/{sampler.image} is {width} × {height}; this OpenGL takes textures up to {limit}."
             )
-        size = (width, height)
+        return pixels
+
+    def _texels(self, pixels: NDArray[np.uint8], sampler: Texture, *, is_srgb: bool) -> moderngl.Texture:
+        size = (pixels.shape[1], pixels.shape[0])
         if self._float_textures:
             texture = self._context.texture(size, 4, _linear(pixels, is_srgb).tobytes(), dtype="f4")
         else:
@@ -83,7 +94,24 @@ class TextureStore:
         if min_filter not in _WITHOUT_MIPMAPS:
             texture.build_mipmaps()
         texture.filter = (min_filter, sampler.mag_filter)
-        _set_wrapping(texture, sampler)
+        return texture
+
+    def _moments(self, channel: NDArray[np.uint8], sampler: Texture) -> moderngl.Texture:
+        """Return the moments of a channel (height, width), filtered over the pixel whatever the sampler says.
+
+        A sampler without mipmaps shows one texel of all that a pixel spans. Of a thickness this is a colour
+        that flickers, which is no look of the surface.
+        """
+        size = (channel.shape[1], channel.shape[0])
+        levels = moment_levels(channel)
+        texture = self._context.texture(size, 2, next(levels).tobytes(), dtype="f4")
+        if self._base_level_only:
+            texture.filter = (sampler.mag_filter, sampler.mag_filter)
+            return texture
+        texture.build_mipmaps()  # makes room for the levels, which then are written
+        for number, level in enumerate(levels, start=1):
+            texture.write(level.tobytes(), level=number)
+        texture.filter = (_LINEAR_MIPMAP_LINEAR, sampler.mag_filter)
         return texture
 
 

@@ -5,6 +5,9 @@
 #ifndef HAS_UNLIT
 #include "optics/microfacet.glsl"
 #endif
+#ifdef HAS_IRIDESCENCE_THICKNESS_SPREAD
+#include "material/thickness.glsl"
+#endif
 
 struct Surface {
     vec3 base_color;
@@ -20,6 +23,9 @@ struct Surface {
     float iridescence_factor;
     float film_ior;
     float iridescence_thickness_nm;
+#ifdef HAS_IRIDESCENCE_THICKNESS_SPREAD
+    float iridescence_thickness_std_nm;  // within the pixel
+#endif
 #endif
 #ifdef HAS_ANISOTROPY
     float anisotropy_strength;
@@ -103,7 +109,14 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
     s.film_ior = u_iridescence_film_ior;
     s.iridescence_thickness_nm = u_iridescence_thickness_max_nm;
 #ifdef HAS_IRIDESCENCE_THICKNESS_TEXTURE
+#ifdef HAS_IRIDESCENCE_THICKNESS_SPREAD
+    vec2 in_pixel = thickness_in_pixel(iridescence_thickness_uv(uv0, uv1));
+    float thickness = in_pixel.x;
+    s.iridescence_thickness_std_nm =
+        abs(u_iridescence_thickness_max_nm - u_iridescence_thickness_min_nm) * in_pixel.y;
+#else
     float thickness = sample_iridescence_thickness(uv0, uv1);
+#endif
     s.iridescence_thickness_nm = mix(u_iridescence_thickness_min_nm, u_iridescence_thickness_max_nm, thickness);
 #endif
 #endif

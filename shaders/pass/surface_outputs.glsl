@@ -71,14 +71,15 @@ layout(location = 0) out vec4 out_transmitted_radiance_transmission;
 layout(location = 1) out vec4 out_clearcoat_normal_clearcoat;
 layout(location = 2) out vec4 out_clearcoat_radiance_clearcoat_roughness;
 layout(location = 3) out vec4 out_sheen_color_sheen_roughness;
-layout(location = 4) out vec4 out_sheen_radiance;
+layout(location = 4) out vec4 out_sheen_radiance_iridescence_thickness_std_nm;
 layout(location = 5) out vec4 out_anisotropy_tangent_anisotropy_strength;
 layout(location = 6) out vec4 out_layer_albedos;
 
 void write_surface(Surface s, View w, ImageLight image, vec3 colour) {
     out_transmitted_radiance_transmission = vec4(0.0);
     out_clearcoat_normal_clearcoat = out_clearcoat_radiance_clearcoat_roughness = vec4(0.0);
-    out_sheen_color_sheen_roughness = out_sheen_radiance = vec4(0.0);
+    out_sheen_color_sheen_roughness = vec4(0.0);
+    out_sheen_radiance_iridescence_thickness_std_nm = vec4(0.0);
     out_anisotropy_tangent_anisotropy_strength = vec4(0.0);
     out_layer_albedos = vec4(0.0);
 #ifdef HAS_TRANSMISSION
@@ -91,8 +92,11 @@ void write_surface(Surface s, View w, ImageLight image, vec3 colour) {
 #endif
 #ifdef HAS_SHEEN
     out_sheen_color_sheen_roughness = vec4(s.sheen_color, s.sheen_roughness);
-    out_sheen_radiance = vec4(image.sheen_radiance, 0.0);
+    out_sheen_radiance_iridescence_thickness_std_nm.rgb = image.sheen_radiance;
     out_layer_albedos.z = image.sheen_albedo;
+#endif
+#ifdef HAS_IRIDESCENCE_THICKNESS_SPREAD
+    out_sheen_radiance_iridescence_thickness_std_nm.a = s.iridescence_thickness_std_nm;
 #endif
 #ifdef HAS_ANISOTROPY
     out_anisotropy_tangent_anisotropy_strength = vec4(w.tangent, s.anisotropy_strength);

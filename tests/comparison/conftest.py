@@ -56,6 +56,7 @@ def row_of_pixels() -> Callable[..., ShadingInputs]:
             "dfg_b": 0,
             "emission": (0, 0, 0),
             "iridescence_thickness_nm": 400,
+            "iridescence_thickness_std_nm": 0,
             "transmitted_radiance": (0, 0, 0),
             "transmission": 0,
             "clearcoat_normal": (0, 0, 1),
