@@ -7,7 +7,7 @@ from typing import Final
 
 from gltf_iri.planning.method import METHODS, ParameterValue
 
-__all__ = ["SETTINGS", "Settings", "settings_of", "with_defaults"]
+__all__ = ["ACCURACY_SETTINGS", "SETTINGS", "Settings", "settings_of", "with_defaults"]
 
 Settings = Mapping[str, ParameterValue]
 
@@ -22,10 +22,25 @@ SETTINGS: Final[Mapping[str, tuple[Settings, ...]]] = {
 }
 
 
-def settings_of(method: str) -> tuple[Settings, ...]:
+# From three samples, one a channel, to one a nanometre of the visible range; between them ever twice as fine.
+_GRIDS: Final = tuple({"samples": n} for n in (3, 5, 9, 17, 33, 65, 129, 257, 471))
+
+# What the map of cost and error shows of each method: its whole reach.
+ACCURACY_SETTINGS: Final[Mapping[str, tuple[Settings, ...]]] = {
+    **SETTINGS,
+    "bb17": ({"orders": 1}, {"orders": 2}),
+    "fourier": tuple({"tolerance": t} for t in (0.1, 0.03, 0.01, 1e-3, 1e-5, 1e-6, 1e-8)),
+    "spectral-grid": _GRIDS,
+    "yeh-grid": _GRIDS,
+    "landmarks": tuple({"root_finder": finder} for finder in ("newton-1", "bisect-10")),
+    "bloch": tuple({"samples": n} for n in (8, 16, 24, 32, 48, 64, 96, 128)),
+}
+
+
+def settings_of(method: str, shown: Mapping[str, tuple[Settings, ...]] = SETTINGS) -> tuple[Settings, ...]:
     """Return what is chosen of a method's parameters, a row each; the first chooses nothing."""
     different: list[Settings] = [{}]
-    for chosen in SETTINGS.get(method, ()):
+    for chosen in shown.get(method, ()):
         if with_defaults(method, chosen) not in [with_defaults(method, each) for each in different]:
             different.append(chosen)
     return tuple(different)
