@@ -100,8 +100,7 @@ def plan_material(
     """
     name = method if way is None else way.method
     descriptor = find_method(DEFAULT_METHOD if name is None else name, "film")
-    decided = dict(_verdicts(material, descriptor, reach, way, folded))
-    verdicts: dict[Effect, Verdict] = {effect: decided[effect] for effect in MATERIAL_EFFECTS}
+    verdicts = material_verdicts(material, descriptor, reach, way, folded)
     if way is not None and way.method is None and material.iridescence and not verdicts[Effect.IRIDESCENCE]:
         verdicts |= verdicts_without_film(material.iridescence, Skip(way_reason), folded)
     film = verdicts[Effect.IRIDESCENCE]

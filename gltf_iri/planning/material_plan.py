@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from gltf_iri.material.material import Material
+from gltf_iri.material.material import DEFAULT_MATERIAL, Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.film_table import FilmTable, Lobe
 from gltf_iri.planning.way import Way
@@ -26,6 +26,9 @@ class MaterialPlan:
     `material` is what is drawn: the file's, with textures that are the same everywhere folded into factors.
     `way` is how the film is computed where a budget chose it; without a budget it is None and `method` is
     computed directly, with its default parameters.
+
+    `grey` names the lobes under a film whose base reflects R, G and B alike wherever no vertex brings a
+    colour: one channel stands for all.
     """
 
     index: int  # DEFAULT_MATERIAL for glTF's default material
@@ -39,10 +42,17 @@ class MaterialPlan:
     absent: frozenset[Effect] = frozenset()
     material: Material | None = None
     way: Way | None = None
+    grey: frozenset[Lobe] = frozenset()
 
     def calls_for(self, effect: Effect) -> bool:
         """True where `effect` is simulated."""
         return effect in self.effects
+
+    def material_in(self, materials: Sequence[Material]) -> Material:
+        """Return the material that is drawn, of a file with `materials`."""
+        if self.material is not None:
+            return self.material
+        return Material() if self.index == DEFAULT_MATERIAL else materials[self.index]
 
     def table(self, lobe: Lobe) -> FilmTable | None:
         """Return the table of the film over `lobe`; None where it is computed directly or there is none."""

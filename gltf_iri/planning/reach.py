@@ -37,6 +37,8 @@ class Reach:
     base_color : (R, G, B) in [0, 1]: the metal under the film.
     dielectric_f0 : (R, G, B) in [0, 1]: of the dielectric under the film, specular weight included where the
         plan's layering puts it there.
+    is_dielectric_grey, is_metal_grey : True where the base's R, G and B are certainly equal at every point:
+        one channel stands for all.
     """
 
     film_ior: float
@@ -46,3 +48,5 @@ class Reach:
     roughness: Span
     base_color: tuple[Span, Span, Span]
     dielectric_f0: tuple[Span, Span, Span]
+    is_dielectric_grey: bool = False
+    is_metal_grey: bool = False
