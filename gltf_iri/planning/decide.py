@@ -120,18 +120,18 @@ def plan_material(
         absent=frozenset(e for e, v in verdicts.items() if isinstance(v, Skip) and v.is_absent),
         material=material,
         way=way,
-        grey=_grey(reach) if film is None else frozenset(),
+        grey=_grey(reach, verdicts) if film is None else frozenset(),
     )
 
 
-def _grey(reach: Reach | None) -> frozenset[Lobe]:
+def _grey(reach: Reach | None, verdicts: Mapping[Effect, Verdict]) -> frozenset[Lobe]:
     if reach is None:
         return frozenset()
-    lobes: tuple[tuple[Lobe, bool], ...] = (
-        ("dielectric", reach.is_dielectric_grey),
-        ("metal", reach.is_metal_grey),
+    lobes: tuple[tuple[Lobe, Effect, bool], ...] = (
+        ("dielectric", Effect.DIELECTRIC, reach.is_dielectric_grey),
+        ("metal", Effect.METAL, reach.is_metal_grey),
     )
-    return frozenset(lobe for lobe, is_grey in lobes if is_grey)
+    return frozenset(lobe for lobe, effect, is_grey in lobes if is_grey and verdicts[effect] is None)
 
 
 def _method_reason(

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from gltf_iri.material.interface import material_textures
-from gltf_iri.material.material import DEFAULT_MATERIAL, Material
+from gltf_iri.material.material import Material
 from gltf_iri.planning.decide import complete_plans
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
@@ -41,9 +41,7 @@ def build_stage(model: Model, scene: Scene, plans: Sequence[MaterialPlan]) -> St
     plans = complete_plans(plans, scene)
     slot_of = {plan.index: slot for slot, plan in enumerate(plans)}
     slots = tuple(slot_of[primitive.material] for primitive in scene.primitives)
-    materials = tuple(
-        Material() if plan.index == DEFAULT_MATERIAL else model.materials[plan.index] for plan in plans
-    )
+    materials = tuple(plan.material_in(model.materials) for plan in plans)
     textures: dict[int, Texels] = {}
     for slot in set(slots):
         for binding in material_textures(materials[slot], _defines(plans[slot])).values():
