@@ -1,5 +1,5 @@
 // The DFG table: A = ⟨(1 − Fc) G⟩, B = ⟨Fc G⟩, Fc = (1 − V·H)⁵. Karis 2013, "Real Shading in Unreal Engine 4".
-// The quadrature is that of `integrate_dfg` in gltf_iri/optics/dfg.py, which says why it is smooth.
+// The quadrature is that of `facet_cosines` in gltf_iri/optics/facet_mean.py, which says why it is smooth.
 
 #include "common/math.glsl"
 #include "generated/constants.glsl"
