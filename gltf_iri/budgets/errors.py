@@ -1,0 +1,153 @@
+"""How far ways to a film's colour are from the truth, over all that the film meets, as far as a budget asks.
+
+An error is the CIEDE2000 between colours of the surface at the film's greatest factor, seen against white 1:
+of light from one direction, and where there is image light of its mean over the facets. What is stated is a
+number that the p95 of it lies below (`gltf_iri.budgets.quantile`), the greater of the two lights'.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.budgets.quantile import LOOKS, bounds
+from gltf_iri.budgets.samples import Points, lobes_of, points_of
+from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.colour.spaces import White
+from gltf_iri.evaluation.film import Film
+from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.optics.fresnel import f_schlick
+from gltf_iri.planning.film_table import Lobe
+from gltf_iri.planning.method import ParameterValue
+from gltf_iri.planning.reach import Reach
+
+__all__ = ["FilmErrors", "Measured"]
+
+Float64 = NDArray[np.float64]
+
+# The film's colours (n, 3) at n points of a lobe.
+Colours = Callable[[Lobe, Points], Float64]
+
+# Where a budget is far above what it errs, this series stands for the truth, at a tenth of its time: it is
+# held against the truth at a few points, and what it errs there at most is added to every error.
+_SERIES: Final[Mapping[str, ParameterValue]] = MappingProxyType({"tolerance": 1e-9})
+_SERIES_POINTS: Final = 32
+_SERIES_SHARE: Final = 0.02  # of a budget
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What the p95 of a way's error lies below, and whether it was shown to keep the budget."""
+
+    delta_e: float
+    holds: bool
+
+
+@dataclass(frozen=True, slots=True)
+class _Places:
+    """Points of one lobe under one light, what is there without a film, and the truth."""
+
+    lobe: Lobe
+    points: Points
+    bare: Float64
+    truth: Float64
+    doubt: float  # ΔE that the truth itself may be off by
+
+
+class FilmErrors:
+    """Measures ways to the film's colour over one reach; what they are held against is computed once.
+
+    bare_at_grazing : what the dielectric without its film reflects at grazing angles: its specular weight.
+    """
+
+    def __init__(
+        self, reach: Reach, *, white: White = "D65", has_image_light: bool, bare_at_grazing: float = 1.0
+    ) -> None:
+        self.reach = reach
+        self.white = white
+        self.lobes = lobes_of(reach)
+        self._lights = (False, True) if has_image_light else (False,)
+        self._bare_at_grazing = bare_at_grazing
+        self._places: dict[tuple[Lobe, bool, int, bool], _Places] = {}
+        self._series_errs: dict[Lobe, float] = {}
+
+    def of_method(
+        self, method: str, parameters: Mapping[str, ParameterValue], budget: float, *, floor: float = 0.0
+    ) -> Measured:
+        """Measure a method that computes each colour when it is wanted; `floor` is added to each error."""
+
+        def colours(lobe: Lobe, points: Points) -> Float64:
+            film = points.film(self.reach.film_ior)
+            return evaluate(method, film, white=self.white, parameters=parameters).rgb
+
+        return self.of(colours, budget, floor=floor)
+
+    def without_film(self, budget: float) -> Measured:
+        """Measure what is left where the film is left out."""
+        return self.of(None, budget)
+
+    def of(self, colours: Colours | None, budget: float, *, floor: float = 0.0) -> Measured:
+        """Measure any way to the film's colours; None is the surface without a film."""
+        worst = Measured(0.0, True)
+        for lobe in self.lobes:
+            for is_all_around in self._lights:
+                found = self._measure(colours, lobe, is_all_around, budget, floor)
+                worst = Measured(max(worst.delta_e, found.delta_e), worst.holds and found.holds)
+                if not worst.holds:
+                    return worst
+        return worst
+
+    def _measure(
+        self, colours: Colours | None, lobe: Lobe, is_all_around: bool, budget: float, floor: float
+    ) -> Measured:
+        at_most = np.inf
+        for count in LOOKS:
+            places = self._at(lobe, is_all_around, count, budget)
+            found = places.bare if colours is None else self._on(places.bare, colours(lobe, places.points))
+            above, below = bounds(delta_e_2000(found, places.truth))
+            at_most = below + floor + places.doubt
+            if at_most <= budget:
+                return Measured(at_most, True)
+            if above + floor > budget:
+                break
+        return Measured(at_most, False)
+
+    def _at(self, lobe: Lobe, is_all_around: bool, count: int, budget: float) -> _Places:
+        is_series = self._series_err(lobe) <= _SERIES_SHARE * budget
+        key = (lobe, is_all_around, count, is_series)
+        if key not in self._places:
+            points = points_of(self.reach, lobe, count, from_all_around=is_all_around)
+            films = points.facet_films(self.reach.film_ior)
+            bare = points.mean(self._bare(lobe, points, films.cos_theta_1))
+            truth = self._on(bare, points.mean(self._film_truth(films, is_series)))
+            doubt = self._series_err(lobe) if is_series else 0.0
+            self._places[key] = _Places(lobe, points, bare, truth, doubt)
+        return self._places[key]
+
+    def _film_truth(self, films: Film, is_series: bool) -> Float64:
+        if is_series:
+            return evaluate("fourier", films, white=self.white, parameters=_SERIES).rgb
+        return evaluate("spectral", films, white=self.white).rgb
+
+    def _series_err(self, lobe: Lobe) -> float:
+        if lobe not in self._series_errs:
+            films = points_of(self.reach, lobe, _SERIES_POINTS).facet_films(self.reach.film_ior)
+            by_series, truth = (self._film_truth(films, is_series) for is_series in (True, False))
+            self._series_errs[lobe] = float(delta_e_2000(by_series, truth).max())
+        return self._series_errs[lobe]
+
+    def _bare(self, lobe: Lobe, points: Points, cosine: Float64) -> Float64:
+        """Return what the surface without a film reflects at the cosines (n, q): (n, q, 3)."""
+        plain = f_schlick(points.base_f0[:, None], cosine[..., None])
+        # base_f0 has the weight in it: weight · Schlick(F0) reaches the weight where Schlick(weight·F0) is 1.
+        grazing = self._bare_at_grazing if lobe == "dielectric" else 1.0
+        return np.asarray(plain - (1.0 - grazing) * f_schlick(0.0, cosine)[..., None])
+
+    def _on(self, bare: Float64, film: Float64) -> Float64:
+        strength = self.reach.factor.high
+        return np.asarray((1.0 - strength) * bare + strength * film)
