@@ -174,7 +174,7 @@ def render(
     shown = model.scene(scene)
     seen_from = camera if isinstance(camera, Camera) else choose_camera(shown, camera, size)
     light = choose_environment(environment) if isinstance(environment, str | os.PathLike) else environment
-    plans = plan_materials(model.materials, method=method)
+    plans = plan_materials(model.materials, method=method, document=model.document, scene=shown)
     context = create_context()
     try:
         return Renderer(context).render(model, shown, plans, seen_from, light, size=size, samples=samples)

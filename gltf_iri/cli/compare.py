@@ -93,7 +93,7 @@ def command(
     environment = choose_environment(env)
     model = load(file)
     scene = model.scene()
-    plans = plan_materials(model.materials, method=method)
+    plans = plan_materials(model.materials, method=method, document=model.document, scene=scene)
     view = choose_camera(scene, camera, size)
     folder = Path(f"{file.stem}-compared" if out is None else out)
     # matplotlib warns where there is no home to keep its fonts' list in; the figures are the same.

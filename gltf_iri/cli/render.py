@@ -80,7 +80,7 @@ def command(
     out of focus (by rays it is sharp), in the studio a card.
     """
     from gltf_iri.errors import UsageError
-    from gltf_iri.planning.decide import complete_plans, plan_materials
+    from gltf_iri.planning.decide import plan_materials
     from gltf_iri.rendering.picture import check_picture_path, write_orbit, write_picture
     from gltf_iri.rendering.programs import check_method
     from gltf_iri.scene.choose import choose_camera, choose_environment
@@ -103,7 +103,7 @@ def command(
         views: tuple[Camera, ...] = (choose_camera(scene, camera, size),)
     else:
         views = orbit_scene(scene, aspect=max(size[0], 1) / max(size[1], 1), count=orbit)
-    plans = complete_plans(plan_materials(model.materials, method=method), scene)
+    plans = plan_materials(model.materials, method=method, document=model.document, scene=scene)
     exposure_ev = choose_exposure(exposure, scene, environment, default="0" if is_linear else "auto")
     subject = (model, scene, plans, environment, size)
     brush = rays(*subject, counts) if reference else opengl(*subject)

@@ -11,7 +11,7 @@ from gltf_iri.comparison.figures import TONEMAP
 from gltf_iri.comparison.result import Comparison
 from gltf_iri.comparison.run import compare
 from gltf_iri.errors import GltfIriError
-from gltf_iri.planning.decide import complete_plans, plan_materials
+from gltf_iri.planning.decide import plan_materials
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.rendering.picture import display_pixels, webp_bytes
 from gltf_iri.rendering.render import Renderer
@@ -83,7 +83,7 @@ def make_entry(renderer: Renderer, file: Path, setup: Setup) -> Entry:
     try:
         model = load(file)
         scene = model.scene()
-        plans = complete_plans(plan_materials(model.materials, method=setup.method), scene)
+        plans = plan_materials(model.materials, method=setup.method, document=model.document, scene=scene)
         used = {primitive.material for primitive in scene.primitives}
         exposure = setup.exposure
         if exposure is None:
