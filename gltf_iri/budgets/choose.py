@@ -1,0 +1,149 @@
+"""The cheapest way to the colour of a material's film whose measured error keeps a budget."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+from gltf_iri.backends import choose_backend
+from gltf_iri.budgets.candidates import (
+    Candidate,
+    direct_candidates,
+    film_workload,
+    resolves_in_glsl,
+    table_ns,
+    without_film,
+)
+from gltf_iri.budgets.errors import FilmErrors, Measured
+from gltf_iri.budgets.samples import base_spans
+from gltf_iri.budgets.search import Chosen, TableOffer, cheapest_way, check_budget, figure, the_truth
+from gltf_iri.colour.spaces import White
+from gltf_iri.planning.costs import Device
+from gltf_iri.planning.film_table import FilmTable, Lobe, TableAxis
+from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.reach import Reach, Span
+from gltf_iri.planning.way import Way
+from gltf_iri.tolerances import GLSL_FILM_DELTA_E
+
+__all__ = ["Asked", "choose_way", "way_for_films"]
+
+# Thinner than a fifth of the shortest wave that is seen, a film has no fringes yet.
+_NO_FRINGES_OPD_NM: Final = 80.0
+_WEAK_FACTOR: Final = 0.2
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """What the film of one material is wanted for.
+
+    colours : how often the material's colour is wanted.
+    bare_at_grazing : what its dielectric without the film reflects at grazing angles, its specular weight;
+        None where that differs from place to place.
+    is_film_needed : the film's own colour is wanted, so that it is never left out.
+    has_spread : tables should average over the thickness within a pixel, too.
+    """
+
+    budget: float
+    colours: float
+    device: Device
+    white: White = "D65"
+    has_image_light: bool = False
+    bare_at_grazing: float | None = 1.0
+    is_film_needed: bool = False
+    has_spread: bool = False
+
+
+def choose_way(reach: Reach, asked: Asked, subject: str) -> Chosen:
+    """Return the cheapest way to the colour of a material's film, and why.
+
+    Raises UsageError for a budget below 0 or NaN, and where nothing keeps it for `subject`.
+    """
+    budget = check_budget(asked.budget)
+    errors = FilmErrors(
+        reach,
+        white=asked.white,
+        has_image_light=asked.has_image_light,
+        bare_at_grazing=1.0 if asked.bare_at_grazing is None else asked.bare_at_grazing,
+    )
+    workloads = [film_workload(reach, lobe) for lobe in errors.lobes]
+    candidates = direct_candidates("film", asked.device, workloads)
+    if budget == 0.0:
+        return the_truth(candidates)
+    if asked.device == "glsl" and not resolves_in_glsl(reach):
+        candidates = tuple(each for each in candidates if not METHODS[each.method or ""].is_truth)
+    if asked.bare_at_grazing is not None and not asked.is_film_needed:
+        candidates = (without_film(asked.device, workloads), *candidates)
+    floor = GLSL_FILM_DELTA_E if asked.device == "glsl" else 0.0
+
+    def measure(candidate: Candidate, allowed: float) -> Measured:
+        if candidate.method is None:
+            return errors.without_film(allowed)
+        return errors.of_method(candidate.method, candidate.parameters, allowed, floor=floor)
+
+    tables = _tables(errors, asked, floor) if asked.white in ("D65", "E") else None
+    chosen = cheapest_way(candidates, measure, budget, asked.colours, subject=subject, tables=tables)
+    if chosen.way.method is None:
+        return Chosen(chosen.way, _without_film(reach, chosen.way))
+    if chosen.way.method == "incoherent":
+        return Chosen(chosen.way, f"beyond coherence, only the constant term stays; {chosen.reason}")
+    return chosen
+
+
+def way_for_films(reach: Reach, budget: float, *, count: int, white: White = "D65") -> Way:
+    """Return the cheapest way for the colours of `count` films within `reach`, in Python.
+
+    Raises UsageError as `choose_way`.
+    """
+    device = choose_backend("auto", count, ("numpy", "numba"), "table")
+    asked = Asked(budget, count, device, white, is_film_needed=True)
+    return choose_way(reach, asked, "these films").way
+
+
+def _tables(errors: FilmErrors, asked: Asked, floor: float) -> TableOffer:
+    """Return the tables of all lobes as one way."""
+    reach = errors.reach
+
+    def fit(budget: float) -> Way | None:
+        from gltf_iri.baking.resolution import filling_ns, fit_table
+
+        tables = []
+        for lobe in errors.lobes:
+            kinds = {"has_image_light": asked.has_image_light, "has_spread": asked.has_spread}
+            table = fit_table(reach, lobe, budget - floor, white=str(asked.white), **kinds)
+            if table is None:
+                return None
+            tables.append(table)
+        return Way(
+            next(name for name, method in METHODS.items() if method.domain == "film" and method.is_truth),
+            {},
+            tuple(tables),
+            sum(table_ns(asked.device, table) for table in tables),
+            sum(filling_ns(table) for table in tables),
+            max(table.delta_e for table in tables) + floor,
+        )
+
+    return TableOffer(sum(_least_table_ns(reach, lobe, asked) for lobe in errors.lobes), fit)
+
+
+def _least_table_ns(reach: Reach, lobe: Lobe, asked: Asked) -> float:
+    """Return what a colour costs out of a table with the axes that it cannot do without."""
+    base, _ = base_spans(reach, lobe)
+    axes = [TableAxis("cos_theta", Span(0.0, 1.0), 2)]
+    if not reach.thickness_nm.is_point:
+        axes.append(TableAxis("thickness_nm", reach.thickness_nm, 2))
+    if not all(span.is_point for span in base):
+        axes.append(TableAxis("base_f0", Span(0.0, 1.0), 2))
+    if asked.has_image_light:
+        axes.append(TableAxis("roughness", reach.roughness, 2))
+    return table_ns(asked.device, FilmTable(lobe, reach.film_ior, 0.0, (0.0,) * 3, tuple(axes), "f2", 0.0))
+
+
+def _without_film(reach: Reach, way: Way) -> str:
+    """Return why the film is left out."""
+    if 2.0 * reach.film_ior * reach.thickness_nm.high < _NO_FRINGES_OPD_NM:
+        why = "too thin to colour"
+    elif reach.factor.high < _WEAK_FACTOR:
+        why = "too weak to be seen"
+    else:
+        why = "of too little contrast to be seen"
+    return f"{why}: without it ΔE ≤ {figure(way.delta_e)}"
