@@ -33,6 +33,7 @@ class ImageLight:
     clearcoat_a: Float64  # the same at the coat's roughness
     clearcoat_b: Float64
     sheen_albedo: Float64  # what white fibres reflect
+    facet_cosine: Float64  # the mean V·H of the facets that send it; 0 where no film asks for it
 
 
 def surface_of_pixels(inputs: ShadingInputs, mask: Mask, camera: Camera) -> Surface:
@@ -90,6 +91,7 @@ def image_light_of_pixels(inputs: ShadingInputs, mask: Mask) -> ImageLight:
         clearcoat_a=albedos[:, 0],
         clearcoat_b=albedos[:, 1],
         sheen_albedo=albedos[:, 2],
+        facet_cosine=take("facet_cosine"),
     )
 
 

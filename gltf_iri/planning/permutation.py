@@ -39,6 +39,7 @@ _SHAPES: Final = {3: ("_3D",), 4: ("_3D", "_4D")}
 # All that `permutation` may define about a film beside its effects and its method.
 FILM_SWITCHES: Final = frozenset(
     {FILM_FACET_MEAN}
+    | {f"GREY_{lobe.upper()}" for lobe in _LOBES}
     | {f"{lobe.upper()}_TABLE{end}" for lobe in _LOBES for end in ("", *_AXES.values(), *_SHAPES[4])}
 )
 
@@ -102,6 +103,9 @@ def _film_defines(plan: MaterialPlan, method: str, seen: Collection[Effect]) -> 
             shape = _SHAPES.get(len(table.axes), ())
             axes = (_AXES[axis.quantity] for axis in table.axes[1:])
             yield from (f"{lobe.upper()}_TABLE{end}" for end in ("", *axes, *shape))
+    # The metal's base is the base colour, which vertices tint.
+    is_tinted: Mapping[Lobe, bool] = {"dielectric": False, "metal": Effect.VERTEX_COLOR in seen}
+    yield from (f"GREY_{lobe.upper()}" for lobe in tables if lobe in plan.grey and not is_tinted[lobe])
     is_mean = any(table is None or table.axis("roughness") is None for table in tables.values())
     if plan.way is not None and is_mean and not {Effect.IMAGE_LIGHT, Effect.TRANSMISSION}.isdisjoint(seen):
         yield FILM_FACET_MEAN

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.rendering.uniforms import bind
+from gltf_iri.rendering.uniforms import Sampled, bind
 from gltf_iri.scene.model import Primitive
 
 if TYPE_CHECKING:
@@ -33,7 +33,7 @@ class Draw:
     plan: MaterialPlan
     shaders: Mapping[str, Shader]
     uniforms: Mapping[str, Any]
-    textures: Mapping[str, moderngl.Texture]
+    textures: Mapping[str, Sampled]
 
     @property
     def is_blended(self) -> bool:

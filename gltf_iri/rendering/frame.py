@@ -27,8 +27,8 @@ INPUT_TARGETS: tuple[tuple[str, str], ...] = (
     ("emission", "iridescence_thickness_nm"),
 )
 
-# A second set, drawn only where a plan calls for transmission, clearcoat, sheen, anisotropy or a spread of
-# thickness. Image light with occlusion, as above; "" pads.
+# A second set, drawn only where a plan calls for transmission, clearcoat, sheen, anisotropy, a spread of
+# thickness or a film over image light's facets. Image light with occlusion, as above.
 LAYER_INPUT_TARGETS: tuple[tuple[str, str], ...] = (
     ("transmitted_radiance", "transmission"),  # along the refracted direction, after absorption inside
     ("clearcoat_normal", "clearcoat"),  # unit, turned towards the viewer
@@ -37,7 +37,9 @@ LAYER_INPUT_TARGETS: tuple[tuple[str, str], ...] = (
     # Prefiltered with the fibres' lobe; the film's, within the pixel, 0 where the plan has no spread.
     ("sheen_radiance", "iridescence_thickness_std_nm"),
     ("anisotropy_tangent", "anisotropy_strength"),  # world space, unit, in the surface; 0 where there is none
-    ("layer_albedos", ""),  # clearcoat: A and B at Nc·V; sheen: directional albedo at N·V
+    # Clearcoat: A and B at Nc·V; sheen: directional albedo at N·V. The mean V·H of the facets that send image
+    # light, 0 where no film asks for it.
+    ("layer_albedos", "facet_cosine"),
 )
 
 
@@ -77,6 +79,7 @@ class ShadingInputs:
     anisotropy_tangent: Float32
     anisotropy_strength: Float32
     layer_albedos: Float32
+    facet_cosine: Float32
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,7 +25,9 @@ _SHEEN_SIZE: Final = (512, 256)
 
 
 def compute_dfg_table(context: moderngl.Context) -> moderngl.Texture:
-    """Return the table of (A, B) over N·V and perceptual roughness; the caller releases it.
+    """Return the table of A, B and the facets' mean V·H over N·V and perceptual roughness, RGBA32F.
+
+    The caller releases it.
 
     Where texels lie is said in shaders/lighting/dfg.glsl.
     """
@@ -33,7 +35,7 @@ def compute_dfg_table(context: moderngl.Context) -> moderngl.Texture:
         "u_slopes": np.column_stack(gauss_unit(_DFG_SLOPES)).tolist(),
         "u_turns": np.column_stack(gauss_unit(_DFG_TURNS)).tolist(),
     }
-    table = compute_texture(context, "pass/dfg.frag", _DFG_SIZE, 2, {"u_size": _DFG_SIZE, **points}, {})
+    table = compute_texture(context, "pass/dfg.frag", _DFG_SIZE, 4, {"u_size": _DFG_SIZE, **points}, {})
     return _filtered(context, table)
 
 

@@ -6,17 +6,18 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Final
 
 from gltf_iri.material.interface import material_textures, material_uniforms
-from gltf_iri.material.material import DEFAULT_MATERIAL, Material
+from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.method import find_method
 from gltf_iri.planning.permutation import permutation, primitive_effects
 from gltf_iri.rendering.draw import Draw, Shader
+from gltf_iri.rendering.film_tables import FilmTableStore
 from gltf_iri.rendering.geometry import GeometryStore, placement_uniforms
 from gltf_iri.rendering.optics_tables import OpticsTableStore
-from gltf_iri.rendering.programs import ProgramStore
+from gltf_iri.rendering.programs import ProgramStore, computed_method, film_parameters
 from gltf_iri.rendering.switches import LAYER_INPUTS, SHADING_INPUTS
 from gltf_iri.rendering.textures import TextureStore
+from gltf_iri.rendering.uniforms import Sampled
 from gltf_iri.scene.model import Scene
 
 if TYPE_CHECKING:
@@ -43,7 +44,10 @@ _SWITCHES: Final[Mapping[str, tuple[str, ...]]] = {
 }
 
 # The effects that `LAYER_INPUT_TARGETS` speak of.
-_LAYERS: Final = (Effect.TRANSMISSION, Effect.CLEARCOAT, Effect.SHEEN, Effect.ANISOTROPY)
+_LAYERS: Final = (
+    *(Effect.TRANSMISSION, Effect.CLEARCOAT, Effect.SHEEN, Effect.ANISOTROPY),
+    Effect.IRIDESCENCE_THICKNESS_SPREAD,
+)
 
 
 def used_plans(scene: Scene, plans: Sequence[MaterialPlan]) -> list[MaterialPlan]:
@@ -56,7 +60,11 @@ def needed_targets(plans: Sequence[MaterialPlan], *, with_inputs: bool) -> tuple
     """Return what to draw into; the second inputs only where one of `plans` fills them."""
     if not with_inputs:
         return (PICTURE,)
-    has_layers = any(plan.calls_for(effect) for plan in plans for effect in _LAYERS)
+    # A film with a way asks for the cosine of image light's facets.
+    has_layers = any(
+        (plan.way is not None and plan.method is not None) or any(plan.calls_for(e) for e in _LAYERS)
+        for plan in plans
+    )
     return (PICTURE, FIRST_INPUTS, SECOND_INPUTS) if has_layers else (PICTURE, FIRST_INPUTS)
 
 
@@ -72,29 +80,35 @@ def prepare_draws(
     uniforms: Mapping[str, Any],
     light: Mapping[str, moderngl.Texture],
     tables: OpticsTableStore,
+    film_tables: FilmTableStore,
     white: str,
 ) -> Iterator[Draw]:
     """Yield a draw for each primitive; `uniforms` and `light` are those that all of them share.
 
     tables, white : what the films' methods sample, and the illuminant that it is made for.
+    film_tables : what the films are read from where their way has tables.
 
-    Raises MissingCapabilityError for more or larger textures than OpenGL takes.
+    Raises MissingCapabilityError for more or larger textures than OpenGL takes, UsageError where a table is
+    missing that a plan's way names.
     """
     slot_of = {plan.index: slot for slot, plan in enumerate(plans)}
     for primitive in scene.primitives:
         slot = slot_of[primitive.material]
         plan = plans[slot]
-        material = Material() if plan.index == DEFAULT_MATERIAL else materials[plan.index]
+        material = plan.material_in(materials)
         defines = permutation(plan, primitive_effects(primitive), surroundings)
         shaders = {}
         for target in targets:
             program = programs.get((*defines, *_SWITCHES[target]), material=plan.name or str(plan.index))
             shaders[target] = Shader(program, geometry.vertex_array(primitive, program))
         own = placement_uniforms(primitive) | {"u_material": slot} | material_uniforms(material, defines)
-        sampled = {name: textures.get(b) for name, b in material_textures(material, defines).items()}
+        sampled: dict[str, Sampled] = {
+            name: textures.get(b) for name, b in material_textures(material, defines).items()
+        }
         if plan.method is not None:
-            method = find_method(plan.method)
-            sampled |= tables.textures(
-                method.glsl_tables, white, {p.name: p.default for p in method.parameters}
-            )
+            own |= film_tables.uniforms(plan)
+            sampled |= film_tables.textures(plan)
+        method = computed_method(plan)
+        if method is not None:
+            sampled |= tables.textures(method.glsl_tables, white, film_parameters(plan))
         yield Draw(primitive, plan, shaders, {**uniforms, **own}, {**light, **sampled})

@@ -6,13 +6,16 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from gltf_iri.errors import MissingCapabilityError, UsageError
-from gltf_iri.planning.method import METHODS, find_method
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.method import METHODS, Method, ParameterValue, find_method
+from gltf_iri.planning.permutation import film_lobes
 from gltf_iri.rendering.source import ShaderSource, assemble, build_program
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["KEPT_PROGRAMS", "ProgramStore", "check_method", "surface_sources"]
+__all__ = ["KEPT_PROGRAMS", "ProgramStore", "check_method", "computed_method", "film_parameters"]
+__all__ += ["surface_sources"]
 
 
 def surface_sources(defines: tuple[str, ...]) -> tuple[ShaderSource, ShaderSource]:
@@ -25,6 +28,25 @@ def check_method(name: str | None) -> None:
     if name is not None and find_method(name, "film").glsl_function is None:
         drawable = ", ".join(m.name for m in METHODS.values() if m.glsl_function and m.domain == "film")
         raise UsageError(f"The method '{name}' cannot be drawn; methods that can are: {drawable}.")
+
+
+def computed_method(plan: MaterialPlan) -> Method | None:
+    """Return the film method that shaders of `plan` compute; None without a film or where tables hold it.
+
+    Raises UsageError where the method has no GLSL twin.
+    """
+    if plan.method is None or None not in film_lobes(plan).values():
+        return None
+    check_method(plan.method)
+    return find_method(plan.method, "film")
+
+
+def film_parameters(plan: MaterialPlan) -> dict[str, ParameterValue]:
+    """Return the parameters of the method of `plan`, by name: its way's, else the defaults."""
+    if plan.method is None:
+        return {}
+    defaults = {each.name: each.default for each in find_method(plan.method).parameters}
+    return defaults if plan.way is None else {**defaults, **plan.way.parameters}
 
 
 _SAMPLER: Final = re.compile(r"^\s*uniform (?:highp )?sampler", re.MULTILINE)

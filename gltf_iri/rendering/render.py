@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.baking.baked import BakedTable
 from gltf_iri.errors import MissingCapabilityError
 from gltf_iri.planning.decide import complete_plans
 from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.permutation import plan_scene_effects
 from gltf_iri.rendering.background import BLUR, Background
 from gltf_iri.rendering.capture import Capturing
 from gltf_iri.rendering.context import renderer_name
 from gltf_iri.rendering.draw import Draw, draw_faces, draw_opaque
+from gltf_iri.rendering.film_tables import FilmTableStore, checked_tables
 from gltf_iri.rendering.frame import INPUT_TARGETS, LAYER_INPUT_TARGETS, Frame
 from gltf_iri.rendering.geometry import GeometryStore
 from gltf_iri.rendering.image_light import ImageLightStore
@@ -30,7 +34,7 @@ from gltf_iri.rendering.prepare import (
     prepare_draws,
     used_plans,
 )
-from gltf_iri.rendering.programs import ProgramStore, check_method
+from gltf_iri.rendering.programs import ProgramStore, computed_method
 from gltf_iri.rendering.punctual_lights import lights_texture
 from gltf_iri.rendering.see_through import MAX_CAPTURES, group_sheets, sheets_in_order
 from gltf_iri.rendering.targets import Targets, check_size, shading_inputs
@@ -76,6 +80,7 @@ class Renderer:
         sharp_textures: bool = False,
         with_inputs: bool = False,
         white: str = "D65",
+        tables: Mapping[int, Mapping[Lobe, BakedTable]] = MappingProxyType({}),
     ) -> Frame:
         """Return the picture of `scene`; its milliseconds are drawing alone, without uploads and compiling.
 
@@ -92,9 +97,10 @@ class Renderer:
             pixel. In the inputs blended materials are as if opaque, and what light passes through is the
             surface in front: an input belongs to one surface.
         white : the illuminant, "D65" or "E", under which film methods with a table of it integrate.
+        tables : the films' tables of the plans whose way has some (`baking.fill.bake_plans`), under `white`.
 
-        Raises UsageError for a size out of range and a method without GLSL, MissingCapabilityError where
-        OpenGL takes fewer samples or smaller textures than are needed.
+        Raises UsageError for a size out of range, a method without GLSL and a missing table,
+        MissingCapabilityError where OpenGL takes fewer samples or smaller textures than are needed.
         """
         import moderngl
 
@@ -103,7 +109,8 @@ class Renderer:
         check_size(self.context, size, samples)
         plans = complete_plans(plans, scene)
         for plan in plans:
-            check_method(plan.method)
+            computed_method(plan)
+            checked_tables(plan, tables)
         surroundings = plan_scene_effects(scene, environment)
         geometry = GeometryStore(self.context)
         textures = TextureStore(
@@ -112,6 +119,7 @@ class Renderer:
         used = used_plans(scene, plans)
         names = needed_targets(used, with_inputs=with_inputs)
         times = PassTimes(self.context)
+        film_tables = FilmTableStore(self.context, tables)
         lights = lights_texture(self.context, scene.lights)
         targets: dict[str, Targets] = {}
         try:
@@ -146,6 +154,7 @@ class Renderer:
                         shared,
                         light,
                         self._optics_tables,
+                        film_tables,
                         white,
                     )
                 )
@@ -180,6 +189,7 @@ class Renderer:
             for target in targets.values():
                 target.release()
             textures.release()
+            film_tables.release()
             geometry.release()
             self._programs.trim()
 

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["bind"]
+__all__ = ["Sampled", "bind"]
+
+# Textures of two and of three dimensions, which are bound alike.
+Sampled: TypeAlias = "moderngl.Texture | moderngl.Texture3D"
 
 
-def bind(
-    program: moderngl.Program, uniforms: Mapping[str, Any], textures: Mapping[str, moderngl.Texture]
-) -> None:
+def bind(program: moderngl.Program, uniforms: Mapping[str, Any], textures: Mapping[str, Sampled]) -> None:
     """Set the uniforms, and bind each texture that the program samples to a unit.
 
     Names that the program does not have are passed over: a compiler removes what no pixel depends on.

@@ -25,18 +25,19 @@ float anisotropic_facets(Surface s, View w, vec3 l, vec3 h, float n_dot_l) {
 // (A, B) of facets with one roughness that send as much: for B, what is seen at grazing angles, the roughness along
 // the view; for A + B, what is not masked, more of the roughness across it. Fitted to the integral over all light:
 // off by 0.02 on average, where the roughness across the stretch alone would be off by 0.14.
-vec2 anisotropic_dfg_terms(Surface s, View w) {
+// The mean cosine is that of the former.
+vec3 anisotropic_dfg_facets(Surface s, View w) {
     if (w.tangent == vec3(0.0)) {
-        return dfg_terms(u_dfg, w.n_dot_v, s.perceptual_roughness);
+        return dfg_facets(u_dfg, w.n_dot_v, s.perceptual_roughness);
     }
     vec2 alphas = anisotropic_alphas(s.alpha_roughness, s.anisotropy_strength);
     vec3 view = in_surface(w, w.v);
     float mean = 0.5 * (sq(alphas.x) + sq(alphas.y));
     float difference = 0.5 * (sq(alphas.x) - sq(alphas.y)) * (sq(view.x) - sq(view.y));
     // α² is the fourth power of what the table asks for. A normal that leans from the viewer may round below 0.
-    vec2 whole = dfg_terms(u_dfg, w.n_dot_v, sqrt(sqrt(mean - 0.5 * difference)));
+    vec3 whole = dfg_facets(u_dfg, w.n_dot_v, sqrt(sqrt(mean - 0.5 * difference)));
     vec2 grazing = dfg_terms(u_dfg, w.n_dot_v, sqrt(sqrt(max(mean + difference, 0.0))));
-    return vec2(max(whole.x + whole.y - grazing.y, 0.0), grazing.y);
+    return vec3(max(whole.x + whole.y - grazing.y, 0.0), grazing.y, whole.z);
 }
 
 #ifdef HAS_IMAGE_LIGHT

@@ -13,9 +13,14 @@ vec2 dfg_arguments(vec2 pixel, vec2 size) {
     return vec2(x.x * x.x * x.x * x.x, x.y * x.y);
 }
 
-// (A, B): a rough mirror under a white environment reflects F0·A + B. Twin: gltf_iri/optics/dfg.py.
-vec2 dfg_terms(sampler2D table, float n_dot_v, float perceptual_roughness) {
+// (A, B, mean V·H): a rough mirror under a white environment reflects F0·A + B, and its facets send that at this
+// mean cosine. Twins: gltf_iri/optics/dfg.py, gltf_iri/optics/facet_mean.py.
+vec3 dfg_facets(sampler2D table, float n_dot_v, float perceptual_roughness) {
     vec2 size = vec2(textureSize(table, 0));
     vec2 x = max(vec2(sqrt(sqrt(n_dot_v)), sqrt(perceptual_roughness)), DFG_FIRST);
-    return texture(table, ((x - DFG_FIRST) / (1.0 - DFG_FIRST) * (size - 1.0) + 0.5) / size).rg;
+    return texture(table, ((x - DFG_FIRST) / (1.0 - DFG_FIRST) * (size - 1.0) + 0.5) / size).rgb;
+}
+
+vec2 dfg_terms(sampler2D table, float n_dot_v, float perceptual_roughness) {
+    return dfg_facets(table, n_dot_v, perceptual_roughness).rg;
 }

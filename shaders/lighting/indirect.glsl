@@ -23,9 +23,13 @@ ImageLight image_light(Surface s, View w) {
     ImageLight image = no_image_light();
 #if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)
 #ifdef HAS_ANISOTROPY
-    image.dfg = anisotropic_dfg_terms(s, w);
+    vec3 dfg = anisotropic_dfg_facets(s, w);
 #else
-    image.dfg = dfg_terms(u_dfg, w.n_dot_v, s.perceptual_roughness);
+    vec3 dfg = dfg_facets(u_dfg, w.n_dot_v, s.perceptual_roughness);
+#endif
+    image.dfg = dfg.xy;
+#ifdef FILM_FACET_MEAN
+    image.facet_cosine = dfg.z;
 #endif
 #endif
 #ifdef HAS_CLEARCOAT

@@ -9,6 +9,9 @@ struct ImageLight {
     vec3 radiance;    // prefiltered, along the mirror direction
     vec3 irradiance;  // divided by π
     vec2 dfg;         // (A, B)
+#ifdef FILM_FACET_MEAN
+    float facet_cosine;  // the mean of V·H over the facets that send it
+#endif
 #ifdef HAS_TRANSMISSION
     vec3 transmitted;  // from behind; not occluded
 #endif
@@ -26,6 +29,9 @@ ImageLight no_image_light() {
     ImageLight image;
     image.radiance = image.irradiance = vec3(0.0);
     image.dfg = vec2(0.0);
+#ifdef FILM_FACET_MEAN
+    image.facet_cosine = 1.0;
+#endif
 #ifdef HAS_TRANSMISSION
     image.transmitted = vec3(0.0);
 #endif
@@ -73,7 +79,7 @@ layout(location = 2) out vec4 out_clearcoat_radiance_clearcoat_roughness;
 layout(location = 3) out vec4 out_sheen_color_sheen_roughness;
 layout(location = 4) out vec4 out_sheen_radiance_iridescence_thickness_std_nm;
 layout(location = 5) out vec4 out_anisotropy_tangent_anisotropy_strength;
-layout(location = 6) out vec4 out_layer_albedos;
+layout(location = 6) out vec4 out_layer_albedos_facet_cosine;
 
 void write_surface(Surface s, View w, ImageLight image, vec3 colour) {
     out_transmitted_radiance_transmission = vec4(0.0);
@@ -81,19 +87,22 @@ void write_surface(Surface s, View w, ImageLight image, vec3 colour) {
     out_sheen_color_sheen_roughness = vec4(0.0);
     out_sheen_radiance_iridescence_thickness_std_nm = vec4(0.0);
     out_anisotropy_tangent_anisotropy_strength = vec4(0.0);
-    out_layer_albedos = vec4(0.0);
+    out_layer_albedos_facet_cosine = vec4(0.0);
 #ifdef HAS_TRANSMISSION
     out_transmitted_radiance_transmission = vec4(image.transmitted, s.transmission);
 #endif
 #ifdef HAS_CLEARCOAT
     out_clearcoat_normal_clearcoat = vec4(w.coat_n, s.clearcoat);
     out_clearcoat_radiance_clearcoat_roughness = vec4(image.clearcoat_radiance, s.clearcoat_roughness);
-    out_layer_albedos.xy = image.clearcoat_dfg;
+    out_layer_albedos_facet_cosine.xy = image.clearcoat_dfg;
 #endif
 #ifdef HAS_SHEEN
     out_sheen_color_sheen_roughness = vec4(s.sheen_color, s.sheen_roughness);
     out_sheen_radiance_iridescence_thickness_std_nm.rgb = image.sheen_radiance;
-    out_layer_albedos.z = image.sheen_albedo;
+    out_layer_albedos_facet_cosine.z = image.sheen_albedo;
+#endif
+#ifdef FILM_FACET_MEAN
+    out_layer_albedos_facet_cosine.a = image.facet_cosine;
 #endif
 #ifdef HAS_IRIDESCENCE_THICKNESS_SPREAD
     out_sheen_radiance_iridescence_thickness_std_nm.a = s.iridescence_thickness_std_nm;

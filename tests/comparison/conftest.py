@@ -69,6 +69,7 @@ def row_of_pixels() -> Callable[..., ShadingInputs]:
             "anisotropy_tangent": (1, 0, 0),
             "anisotropy_strength": 0,
             "layer_albedos": (0, 0, 0),
+            "facet_cosine": 0,
         }
         quantities.update(values)
         rows = {

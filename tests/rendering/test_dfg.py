@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from gltf_iri.optics.facet_mean import mean_cosine
 from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN, v_smith_ggx_correlated
 from gltf_iri.rendering.lobe_tables import compute_dfg_table
 
@@ -30,7 +31,7 @@ def integrated(n_dot_v, roughness):
 @pytest.fixture
 def table(gl_context):
     texture = compute_dfg_table(gl_context)
-    values = np.frombuffer(texture.read(), np.float32).reshape(*texture.size[::-1], 2).astype(np.float64)
+    values = np.frombuffer(texture.read(), np.float32).reshape(*texture.size[::-1], 4).astype(np.float64)
     texture.release()
     return values
 
@@ -50,9 +51,16 @@ def look_up(table, n_dot_v, roughness):
 @pytest.mark.parametrize("roughness", [0.1, 0.25, 0.4, 0.63, 0.87, 1.0])
 @pytest.mark.parametrize("n_dot_v", [0.02, 0.11, 0.3, 0.55, 0.8, 1.0])
 def test_the_table_holds_the_integral(table, n_dot_v, roughness):
-    assert look_up(table, n_dot_v, roughness) == pytest.approx(integrated(n_dot_v, roughness), abs=1e-4)
+    assert look_up(table, n_dot_v, roughness)[:2] == pytest.approx(integrated(n_dot_v, roughness), abs=1e-4)
 
 
 def test_no_entry_reflects_more_than_arrives(table):
     assert table.min() >= 0.0
-    assert table.sum(axis=-1).max() <= 1.0 + 1e-7  # the rounding of two float32 terms
+    assert table[..., :2].sum(axis=-1).max() <= 1.0 + 1e-7  # the rounding of two float32 terms
+
+
+@pytest.mark.parametrize("roughness", [0.05, 0.2, 0.4, 0.63, 1.0])
+@pytest.mark.parametrize("n_dot_v", [0.02, 0.11, 0.3, 0.55, 0.8, 1.0])
+def test_the_table_holds_the_cosine_at_which_facets_are_seen(table, n_dot_v, roughness):
+    # A film of 1 µm turns by 0.01 of its colour in some 0.003.
+    assert look_up(table, n_dot_v, roughness)[2] == pytest.approx(mean_cosine(n_dot_v, roughness), abs=2e-4)
