@@ -53,6 +53,7 @@ OPENERS = {
     "compiled/loops.py",  # the sources of compiled loops, to know their machine code by
     "baking/stream.py",  # keeps room on the disk for the array that whole_files.py hands it
     "samples/collection.py",  # looks at the index of an earlier collection
+    "baking/cache.py",  # tables that it wrote itself, and the sources that filled them
     "planning/costs.py",  # the program's own map of costs
     "cli/main.py",  # the null device
     "generate.py",  # the checkout that it runs in

@@ -1,0 +1,176 @@
+"""Filled tables on disk, by what is in them: read back only where every byte is as it was written.
+
+A file is the SHA-256 of the rest, a line of JSON that says what the table is, a line with the seconds that it
+took, and the texels, little-endian. Its name is the SHA-256 of the first line, which names the table, the
+white and the state of the code that fills it; so nothing in the folder is ever wrong, only superfluous.
+Processes may share the folder: files appear whole (`gltf_iri.whole_files`), and two that fill the same table
+write the same texels.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+import os
+from contextlib import suppress
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri import __version__
+from gltf_iri.baking.baked import BakedTable
+from gltf_iri.planning.film_table import FilmTable
+from gltf_iri.whole_files import write_whole
+
+__all__ = ["TableCache", "user_folder"]
+
+_FORMAT: Final = 1
+_SUFFIX: Final = ".table"
+_DIGEST_BYTES: Final = 32
+_LINES_MAX: Final = 1 << 13
+_LARGEST_BYTES: Final = 512 << 20
+
+# Folders of the package whose code the texels depend on.
+_COMPUTED_BY: Final = ("baking", "evaluation", "optics", "colour")
+
+
+def user_folder() -> Path:
+    """Return where tables are kept: $XDG_CACHE_HOME/gltf-iri/tables, by default below ~/.cache."""
+    chosen = os.environ.get("XDG_CACHE_HOME", "")
+    # The specification has relative paths ignored.
+    base = Path(chosen) if Path(chosen).is_absolute() else Path("~/.cache").expanduser()
+    return base / "gltf-iri" / "tables"
+
+
+@dataclass(slots=True)
+class TableCache:
+    """A folder of filled tables.
+
+    largest_bytes : of all files together; the least recently used go first.
+    notes : what kept tables from being read or put there, one sentence each; nothing else comes of it.
+    """
+
+    folder: Path = field(default_factory=user_folder)
+    largest_bytes: int = _LARGEST_BYTES
+    notes: list[str] = field(default_factory=list)
+
+    def path(self, table: FilmTable, white: str) -> Path:
+        """Return the file in which `table` under `white` lies, if it does."""
+        return self.folder / (hashlib.sha256(_description(table, white)).hexdigest() + _SUFFIX)
+
+    def read(self, table: FilmTable, white: str) -> BakedTable | None:
+        """Return the filled table; None where it is not there. A file that is not sound is removed."""
+        path = self.path(table, white)
+        try:
+            if not path.is_file():  # a pipe would keep its reader waiting
+                return None
+            with path.open("rb") as stream:
+                content = stream.read(_bytes_max(table) + 1)
+        except FileNotFoundError:
+            return None
+        except OSError as error:
+            self._note(f"Tables are not read from {self.folder}: {error.strerror or error}.")
+            return None
+        found = _decoded(content, table, white)
+        with suppress(OSError):
+            if found is None:
+                path.unlink()
+            else:
+                os.utime(path)  # for what is removed first
+        return found
+
+    def write(self, baked: BakedTable) -> None:
+        """Put a filled table there; where that fails the reason is noted."""
+        path = self.path(baked.table, baked.white)
+        try:
+            write_whole({path: _encoded(baked)})
+            self._shrink(path)
+        except OSError as error:
+            self._note(f"Tables are not kept in {self.folder}: {error.strerror or error}.")
+
+    def _shrink(self, newest: Path) -> None:
+        """Remove what was used least recently, and what writers that died left, until the rest fits."""
+        files = []
+        for path in self.folder.iterdir():
+            with suppress(FileNotFoundError):  # another process shrinks, too
+                if path.suffix == _SUFFIX:
+                    status = path.stat()
+                    files.append((path == newest, status.st_mtime, status.st_size, path))
+        left = sum(size for _, _, size, _ in files)
+        for _, _, size, path in sorted(files):
+            if left <= self.largest_bytes:
+                break
+            with suppress(FileNotFoundError):
+                path.unlink()
+            left -= size
+
+    def _note(self, sentence: str) -> None:
+        if sentence not in self.notes:
+            self.notes.append(sentence)
+
+
+def _encoded(baked: BakedTable) -> bytes:
+    texels = baked.texels.astype(np.dtype(baked.table.texel).newbyteorder("<"))
+    lines = _description(baked.table, baked.white) + f"\n{baked.filled_in_s:.6e}\n".encode()
+    content = lines + texels.tobytes()
+    return hashlib.sha256(content).digest() + content
+
+
+def _decoded(content: bytes, table: FilmTable, white: str) -> BakedTable | None:
+    """Return what a file holds; None where it is damaged, or not what it should be."""
+    if hashlib.sha256(content[_DIGEST_BYTES:]).digest() != content[:_DIGEST_BYTES]:
+        return None
+    line, _, rest = content[_DIGEST_BYTES:].partition(b"\n")
+    took, _, values = rest.partition(b"\n")
+    dtype = np.dtype(table.texel).newbyteorder("<")
+    if line != _description(table, white) or len(values) != 3 * math.prod(table.shape) * dtype.itemsize:
+        return None
+    try:
+        filled_in_s = float(took)
+    except ValueError:
+        return None
+    texels: NDArray[Any] = np.frombuffer(values, dtype).reshape(*table.shape, 3).astype(table.texel)
+    if not np.all(np.isfinite(texels)) or not 0.0 <= filled_in_s < math.inf:
+        return None
+    return BakedTable(table, texels, white, filled_in_s, is_cached=True)
+
+
+def _bytes_max(table: FilmTable) -> int:
+    """Return more than a sound file of `table` has."""
+    return table.bytes + _LINES_MAX
+
+
+def _description(table: FilmTable, white: str) -> bytes:
+    """Return all that the texels depend on, as canonical JSON: equal tables have equal bytes."""
+    said = {
+        "format": _FORMAT,
+        "computed_by": _state_of_the_code(),
+        "white": white,
+        "lobe": table.lobe,
+        "film_ior": table.film_ior.hex(),
+        "thickness_nm": float(table.thickness_nm).hex(),
+        "base_f0": [float(f0).hex() for f0 in table.base_f0],
+        "axes": [
+            [axis.quantity, float(axis.span.low).hex(), float(axis.span.high).hex(), axis.nodes]
+            for axis in table.axes
+        ],
+        "texel": table.texel,
+    }
+    return json.dumps(said, sort_keys=True, separators=(",", ":")).encode()
+
+
+@cache
+def _state_of_the_code() -> str:
+    """Return the version of the program, and a digest of the sources that compute texels."""
+    digest = hashlib.sha256()
+    package = Path(__file__).parents[1]
+    for folder in _COMPUTED_BY:
+        for file in sorted((package / folder).rglob("*")):
+            if file.suffix in (".py", ".csv"):
+                digest.update(file.read_bytes())
+    return f"{__version__} {digest.hexdigest()}"

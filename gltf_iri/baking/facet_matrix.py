@@ -1,0 +1,73 @@
+"""The mean over a rough mirror's facets as a matrix: from a reflectance at some cosines to its means.
+
+A reflectance is smooth in the cosine. Interpolated in K Chebyshev points on [0, 1] it is Σ_j c_j T_j(2x − 1),
+and its mean over facets Σ_j c_j m_j, where m_j are the means of T_j, which no reflectance changes.
+Trefethen 2019, "Approximation Theory and Approximation Practice", chapters 3 and 4.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Final
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebvander
+from numpy.typing import NDArray
+
+from gltf_iri.optics.facet_mean import facet_cosines
+from gltf_iri.optics.microfacet import N_DOT_V_MIN, alpha_ggx
+
+__all__ = ["chebyshev_cosines", "facet_moments", "terms_for", "to_coefficients"]
+
+Float64 = NDArray[np.float64]
+
+_FEWEST_TERMS: Final = 24
+_MOST_TERMS: Final = 384
+_VALUES_AT_ONCE: Final = 1 << 22  # bounds memory: 32 MiB
+
+
+def chebyshev_cosines(terms: int) -> Float64:
+    """Return the points (terms,) in (0, 1) at which `to_coefficients` wants a reflectance."""
+    return np.asarray(0.5 + 0.5 * np.cos(np.pi * (np.arange(terms) + 0.5) / terms))
+
+
+def to_coefficients(terms: int) -> Float64:
+    """Return the matrix (terms, terms) from values at `chebyshev_cosines` to coefficients: 2/K Σ f T_j."""
+    matrix = chebvander(2.0 * chebyshev_cosines(terms) - 1.0, terms - 1).T * (2.0 / terms)
+    matrix[0] /= 2.0
+    return np.asarray(matrix)
+
+
+def facet_moments(n_dot_v: Float64, roughness: Float64, terms: int) -> Float64:
+    """Return m_j (..., terms) at N·V and perceptual roughness (...); at roughness 0 T_j(2 N·V − 1) itself."""
+    cosine, rough = (a.reshape(-1) for a in np.broadcast_arrays(n_dot_v, roughness))
+    moments = np.asarray(chebvander(2.0 * cosine - 1.0, terms - 1))
+    rows = np.flatnonzero(rough > 0.0)
+    step = max(1, _VALUES_AT_ONCE // (1024 * terms))
+    for start in range(0, len(rows), step):
+        part = rows[start : start + step]
+        seen, weights = facet_cosines(np.maximum(cosine[part], N_DOT_V_MIN), alpha_ggx(rough[part]))
+        weights /= weights.sum(axis=-1, keepdims=True)
+        # T_{j+1} = 2x T_j − T_{j−1}, row by row: all T_j at once would leave the cache.
+        x = 2.0 * seen - 1.0
+        before, now = np.ones_like(x), x
+        for j in range(terms):
+            moments[part, j] = np.einsum("rq,rq->r", weights, before)
+            before, now = now, 2.0 * x * now - before
+    shape = np.broadcast_shapes(n_dot_v.shape, roughness.shape)
+    return np.asarray(moments, np.float64).reshape(*shape, terms)
+
+
+def terms_for(reflectance: Callable[[Float64], Float64], max_error: float) -> int:
+    """Return how many terms keep `reflectance`, (k,) cosines → (..., k, 3), to about `max_error`.
+
+    Resonances of nearly perfect mirrors at grazing light want more than 384 terms, and get these.
+    """
+    terms = _FEWEST_TERMS
+    while terms < _MOST_TERMS:
+        values = reflectance(chebyshev_cosines(terms))
+        tail = np.einsum("jk,...kc->...jc", to_coefficients(terms)[-terms // 4 :], values)
+        if np.max(np.abs(tail)) <= max_error:
+            break
+        terms *= 2
+    return terms
