@@ -25,7 +25,7 @@ from gltf_iri.rendering.uniforms import bind
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["CallTimes", "TimedCall", "time_calls"]
+__all__ = ["CallTimes", "TimedCall", "call_colours", "time_calls"]
 
 _SHORTEST_S: Final = 0.02  # shorter draws are repeated, that what else runs weighs less
 _FEWEST_ROUNDS: Final = 2
@@ -56,15 +56,11 @@ class TimedCall:
 
 @dataclass(frozen=True, slots=True)
 class CallTimes:
-    """ns : of each call, in their order; renderer : OpenGL's own name for what was timed.
-
-    colours : (side², 3) float32 for each call, what the pixels hold.
-    """
+    """ns : of each call, in their order; renderer : OpenGL's own name for what was timed."""
 
     renderer: str
     ns: tuple[float, ...]
     baseline_ns: float  # reading the arguments and writing the colour; already taken off
-    colours: tuple[NDArray[np.float32], ...]
 
 
 def time_calls(
@@ -93,13 +89,7 @@ def time_calls(
         framebuffer.use()
         for draw in draws:
             draw.warm_up()
-        colours = []
-        first_s = []
-        for draw in draws:
-            first_s.append(draw.seconds())
-            pixels = np.frombuffer(target.read(), dtype=np.float32).reshape(-1, 4)
-            colours.append(pixels[:, :3].copy())
-        round_s = sum(s * draw.repeats for s, draw in zip(first_s, draws, strict=True))
+        round_s = sum(draw.seconds() * draw.repeats for draw in draws)
         count = min(rounds, max(_FEWEST_ROUNDS, int(limit_s / round_s) if math.isfinite(limit_s) else rounds))
         measured = [[draw.seconds() for draw in draws] for _ in range(count)]
     finally:
@@ -108,9 +98,25 @@ def time_calls(
         release_framebuffer(context, framebuffer)
         target.release()
     *medians, baseline = (1e9 * statistics.median(column) / side**2 for column in zip(*measured, strict=True))
-    return CallTimes(
-        renderer_name(context), tuple(each - baseline for each in medians), baseline, tuple(colours[:-1])
-    )
+    return CallTimes(renderer_name(context), tuple(each - baseline for each in medians), baseline)
+
+
+def call_colours(context: moderngl.Context, call: TimedCall, count: int) -> NDArray[np.float32]:
+    """Return (count, 3): what `call` draws for its first `count` rows."""
+    side = math.isqrt(max(count - 1, 0)) + 1
+    draw = _TimedDraw(context, call, side)
+    target = context.texture((side, side), 4, dtype="f4")
+    framebuffer = context.framebuffer([target])
+    try:
+        context.disable(context.DEPTH_TEST | context.CULL_FACE | context.BLEND)
+        framebuffer.use()
+        draw.seconds()
+        pixels = np.frombuffer(target.read(), dtype=np.float32).reshape(-1, 4)
+        return pixels[:count, :3].copy()
+    finally:
+        draw.release()
+        release_framebuffer(context, framebuffer)
+        target.release()
 
 
 class _TimedDraw:

@@ -16,14 +16,14 @@ from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import METHODS, ParameterValue, find_method
 from gltf_iri.rendering.optics_tables import Table, optics_table
 
-__all__ = ["COMPONENTS", "ResultType", "Twin", "find_twin"]
+__all__ = ["COMPONENTS", "FILM_TYPES", "ResultType", "Twin", "film_arguments", "find_twin"]
 
 ResultType = Literal["float", "vec3"]
 
 COMPONENTS: Final[Mapping[ResultType, int]] = {"float": 1, "vec3": 3}
 
 # What films and mirrors are given as, in this order.
-_FILM_TYPES: Final[tuple[ResultType, ...]] = ("float", "float", "vec3", "float", "float")
+FILM_TYPES: Final[tuple[ResultType, ...]] = ("float", "float", "vec3", "float", "float")
 _MIRROR_TYPES: Final[tuple[ResultType, ...]] = ("float",) * 7
 
 
@@ -62,17 +62,21 @@ def find_twin(
     return Twin(
         descriptor.glsl_function,
         f"optics/{method.replace('-', '_')}.glsl",
-        _MIRROR_TYPES if is_mirror else _FILM_TYPES,
+        _MIRROR_TYPES if is_mirror else FILM_TYPES,
         _arguments(subject),
         {name: optics_table(name, white, blank.parameters) for name in descriptor.glsl_tables},
         blank,
     )
 
 
+def film_arguments(film: Film) -> tuple[NDArray[np.float64], ...]:
+    """Return what twins of film methods are called with; types are FILM_TYPES."""
+    return film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1
+
+
 def _arguments(subject: Film | Mirror) -> tuple[NDArray[np.float64], ...]:
     if isinstance(subject, Film):
-        film = subject
-        return film.outside_ior, film.film_ior, film.base.f0, film.thickness_nm, film.cos_theta_1
+        return film_arguments(subject)
     if not subject.is_lossless:
         raise UsageError("The GLSL twins of mirror methods know lossless cells only: leave k out.")
     cells = subject.cells.astype(np.float64)

@@ -1,0 +1,59 @@
+"""A look-up in a film's table, by the GLSL that surfaces are drawn with, as a call of a film's arguments."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from gltf_iri.baking.baked import BakedTable
+from gltf_iri.evaluation.film import Film
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.film_table import FilmTable
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.permutation import permutation
+from gltf_iri.planning.way import Way
+from gltf_iri.rendering.film_tables import film_table_texture, film_table_uniforms
+from gltf_iri.rendering.timed_calls import TimedCall
+from gltf_iri.rendering.twins import FILM_TYPES, film_arguments
+
+if TYPE_CHECKING:
+    import moderngl
+
+__all__ = ["table_call"]
+
+_FILLED_BY: Final = "spectral"
+
+# The film's arguments a0 to a4: outside, film index, base, thickness, cosine. The roughness axis, where there
+# is one, is read at the cosine: somewhere, and elsewhere at each pixel.
+_LOOK_UP: Final = """
+vec3 timed_table(vec3 base_f0, float thickness_nm, float cos_theta) {{
+    Surface s;
+    s.iridescence_thickness_nm = thickness_nm;
+    return {lobe}_table(s, base_f0, Lobe(cos_theta, cos_theta, cos_theta, 1.0, 0.0));
+}}"""
+
+
+def table_call(context: moderngl.Context, baked: BakedTable, film: Film) -> TimedCall:
+    """Return the look-up of every row of `film` in its table, beside the twins' calls on the same types.
+
+    The texture is the caller's to release. Raises MissingCapabilityError where OpenGL takes none so large.
+    """
+    table = baked.table
+    return TimedCall(
+        f"a table of {len(table.axes)} axes",
+        ('#include "lighting/film_table.glsl"', *_LOOK_UP.format(lobe=table.lobe).splitlines()),
+        "timed_table(a2, a3, a4)",
+        FILM_TYPES,
+        film_arguments(film),
+        textures={f"u_{table.lobe}_table": film_table_texture(context, baked)},
+        uniforms=film_table_uniforms(table),
+        defines=_defines(table),
+    )
+
+
+def _defines(table: FilmTable) -> tuple[str, ...]:
+    """Return what a material with this table alone is drawn with."""
+    lobe = Effect.DIELECTRIC if table.lobe == "dielectric" else Effect.METAL
+    plan = MaterialPlan(
+        0, "", (lobe, Effect.IRIDESCENCE), _FILLED_BY, "", "core", way=Way(_FILLED_BY, tables=(table,))
+    )
+    return permutation(plan, (), ())
