@@ -8,7 +8,7 @@
 // Of E[t²] − E[t]² in float32, t up to 1; 8-bit texels that differ do so by more.
 const float MOMENTS_ROUNDING = 2.5e-7;
 
-const int LONGEST_FOOTPRINT = 8;
+const int LONGEST_FOOTPRINT = 4;
 
 // Where a pixel's parallelogram is longer than wide, texels of its width stand in a row along it.
 // A row of `count` places `step_uv` apart, each as wide as `width` texels of the base level.
