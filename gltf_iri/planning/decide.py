@@ -13,7 +13,7 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, idle_film, verdicts_without_film
 from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.material_reach import material_reach, vertex_colour_spans
+from gltf_iri.planning.material_reach import ANY_COLOURS, material_reach, vertex_colour_spans
 from gltf_iri.planning.method import DEFAULT_METHOD, Method, find_method
 from gltf_iri.planning.reach import Reach
 from gltf_iri.planning.simplify import simplified
@@ -44,20 +44,21 @@ def plan_materials(
 
     document : of the materials: their textures are decoded and looked at, and those that hold one value are
         folded into factors. Without, or where an image is broken, textures may hold anything.
-    scene : the colours of its vertices count; without one, none do.
+    scene : the colours of its vertices count; without one, they may be any.
     with_unused : decode the textures of materials that `scene` does not use, too.
 
     Raises what `plan_material` does.
     """
     used = None if scene is None or with_unused else {p.material for p in scene.primitives}
     colours = {} if scene is None else vertex_colour_spans(scene)
+    unknown = ANY_COLOURS if scene is None else None
     plans = []
     for index, material in enumerate(materials):
         if document is None or (used is not None and index not in used):
             plans.append(plan_material(material, index, method=method))
             continue
         drawn, folded = simplified(material, document)
-        reach = material_reach(drawn, document, colours.get(index))
+        reach = material_reach(drawn, document, colours.get(index, unknown))
         plans.append(plan_material(drawn, index, method=method, reach=reach, folded=folded))
     return tuple(plans) if scene is None else complete_plans(plans, scene)
 

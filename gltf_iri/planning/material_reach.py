@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Final
 
+from gltf_iri.asset.limits import MAX_NUMBER
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.material import Material
 from gltf_iri.material.specular import Specular
@@ -18,9 +19,12 @@ if TYPE_CHECKING:
     from gltf_iri.asset.document import Document
     from gltf_iri.scene.model import Scene
 
-__all__ = ["ColourSpans", "material_reach", "vertex_colour_spans"]
+__all__ = ["ANY_COLOURS", "ColourSpans", "material_reach", "vertex_colour_spans"]
 
 ColourSpans = tuple[Span, Span, Span]
+
+# Vertices hold single precision; a base colour is cut at 1 whatever they hold.
+ANY_COLOURS: Final = (Span(0.0, MAX_NUMBER), Span(0.0, MAX_NUMBER), Span(0.0, MAX_NUMBER))
 
 _WHITE: Final = (Span.at(1.0), Span.at(1.0), Span.at(1.0))
 
@@ -33,7 +37,8 @@ def material_reach(
     Without a thickness texture the maximum holds, which is where the texture is 1.
 
     document : of the textures; None, and images that cannot be read, let them hold all that they may.
-    vertex_colours : the material's entry of `vertex_colour_spans`; None where no vertex brings a colour.
+    vertex_colours : the material's entry of `vertex_colour_spans`; None where no vertex brings a colour,
+        ANY_COLOURS where nobody knows.
     """
     film = material.iridescence
     if film is None:

@@ -11,10 +11,10 @@ from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import find_method
 
 if TYPE_CHECKING:
-    from gltf_iri.scene.model import Environment, Primitive, Scene
+    from gltf_iri.scene.model import Environment, Light, Primitive, Scene
 
 __all__ = ["FILM_FACET_MEAN", "FILM_SWITCHES", "LAYERING_SPECULAR", "permutation", "plan_scene_effects"]
-__all__ += ["film_lobes", "primitive_effects"]
+__all__ += ["film_lobes", "primitive_effects", "shines"]
 
 # The dielectric layering of the text's KHR_materials_specular section; without it, the core section's.
 LAYERING_SPECULAR: Final = "LAYERING_SPECULAR"
@@ -49,11 +49,16 @@ _LIGHTS: Final = (Effect.PUNCTUAL_LIGHTS, Effect.IMAGE_LIGHT)
 def plan_scene_effects(scene: Scene, environment: Environment | None) -> frozenset[Effect]:
     """Return the kinds of light that `scene` under `environment` holds; a light of intensity 0 is none."""
     effects = set()
-    if any(light.intensity > 0.0 and any(light.colour) for light in scene.lights):
+    if any(shines(light) for light in scene.lights):
         effects.add(Effect.PUNCTUAL_LIGHTS)
     if environment is not None and environment.radiance.any():
         effects.add(Effect.IMAGE_LIGHT)
     return frozenset(effects)
+
+
+def shines(light: Light) -> bool:
+    """True where `light` sends any light at all."""
+    return light.intensity > 0.0 and any(light.colour)
 
 
 def primitive_effects(primitive: Primitive) -> frozenset[Effect]:

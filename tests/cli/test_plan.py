@@ -10,10 +10,12 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gltf_iri.cli.main import run
 from gltf_iri.planning.effects import MATERIAL_EFFECTS
+from gltf_iri.samples.png import encode_png
 
 FILM = {"KHR_materials_iridescence": {"iridescenceFactor": 1.0}}
 SHARED = Path(__file__).parents[3] / "shared"
@@ -96,13 +98,52 @@ def test_the_permutations_name_the_materials_that_share_them(plan):
     gltf["meshes"][0]["primitives"] = [{**primitive, "material": i} for i in (2, 1, 0)]
     rows = json.loads(plan(gltf, "--json")[1])["permutations"]
     assert [row["materials"] for row in rows] == [[0, 2], [1]]
-    assert rows[0]["defines"] == ["HAS_IMAGE_LIGHT", "HAS_METAL", "HAS_IRIDESCENCE", "METHOD_KHR_GUARDED"]
+    assert rows[0]["defines"][:4] == [
+        *("HAS_IMAGE_LIGHT", "HAS_METAL", "HAS_IRIDESCENCE", "METHOD_KHR_GUARDED")
+    ]
 
 
 def test_gltfs_default_material_is_planned_last_where_it_is_used(plan):
     rows = json.loads(plan(triangle([{"name": "unused"}], material=None), "--json")[1])["materials"]
     assert [row["index"] for row in rows] == [0, -1]
     assert plan(triangle([], material=None))[1].splitlines()[1].startswith("glTF's default  calls for  metal")
+
+
+PNG_GREY_51 = encode_png(np.full((2, 2, 3), 51, np.uint8))
+
+
+def with_texture(gltf, data):
+    """Return `gltf` with an image of `data` as texture 0."""
+    uri = "data:image/png;base64," + base64.b64encode(data).decode()
+    return {**gltf, "images": [{"uri": uri}], "textures": [{"source": 0}]}
+
+
+def test_a_texture_of_one_value_is_left_out_and_what_that_saves_is_told(plan):
+    film = {"iridescenceFactor": 1.0, "iridescenceTexture": {"index": 0}}
+    gltf = with_texture(triangle([{"extensions": {"KHR_materials_iridescence": film}}]), PNG_GREY_51)
+    told = json.loads(plan(gltf, "--json")[1])
+    (row,) = told["materials"]
+    assert row["skipped"]["iridescence-texture"] == "every texel is 0.2, which is in the factor now"
+    assert row["saved_ns_per_pixel"]["iridescence-texture"] > 0.0
+    (shader,) = told["permutations"]
+    assert "HAS_IRIDESCENCE_TEXTURE" in shader["pruned_defines"]
+    assert set(shader["pruned_defines"]).isdisjoint(shader["defines"])
+    assert "which is in the factor now (saves " in plan(gltf)[1]
+
+
+def test_a_broken_image_is_planned_for_as_if_it_held_anything(plan):
+    film = {"iridescenceFactor": 1.0, "iridescenceTexture": {"index": 0}}
+    gltf = with_texture(triangle([{"extensions": {"KHR_materials_iridescence": film}}]), PNG_GREY_51[:40])
+    code, out, err = plan(gltf)
+    assert code == 0
+    assert "iridescence-texture" in out.splitlines()[1]
+    assert "/images/0: " in err
+    assert "It may hold anything, for all the plan knows." in err
+
+
+def test_a_scene_whose_materials_mention_nothing_prunes_nothing(plan):
+    (shader,) = json.loads(plan(triangle([{}]), "--json")[1])["permutations"]
+    assert shader["pruned_defines"] == ["HAS_DIELECTRIC"]
 
 
 def test_materials_are_planned_although_the_buffer_is_missing(plan):
