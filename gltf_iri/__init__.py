@@ -18,9 +18,11 @@ if typing.TYPE_CHECKING:
 
     from numpy.typing import ArrayLike
 
+    from gltf_iri.baking.baked import BakedTable
     from gltf_iri.colour.spaces import Light
     from gltf_iri.evaluation.film import Base, Dispersion, Evaluation
     from gltf_iri.material.material import Material
+    from gltf_iri.planning.film_table import Lobe
     from gltf_iri.planning.material_plan import MaterialPlan
     from gltf_iri.rendering.frame import Frame
     from gltf_iri.scene.load import Model
@@ -42,17 +44,28 @@ def load(path: str | PathLike[str]) -> Model:
     return open_model(path)
 
 
-def plan(material: Material, *, index: int = -1, method: str | None = None) -> MaterialPlan:
+def plan(
+    material: Material, *, index: int = -1, method: str | None = None, budget: float | None = None
+) -> MaterialPlan:
     """Return what `material` calls for: effects, film method, and the reason for all that is left out.
 
     index : the material's place in its file.
     method : name of a film method; None leaves the choice to the plan.
+    budget : instead of a method, the most that the p95 of CIEDE2000 against the truth may be, for light from
+        one direction on a million pixels in GLSL; ``.way`` is then the cheapest that keeps it. Textures may
+        hold anything here; `gltf_iri.budgets.plans.plans_within` looks at them.
 
-    Raises UsageError where there is no such film method.
+    Raises UsageError where there is no such film method or no way that keeps the budget.
     """
     from gltf_iri.planning.decide import plan_material
 
-    return plan_material(material, index, method=method)
+    if budget is None:
+        return plan_material(material, index, method=method)
+    from gltf_iri.budgets.choose import Asked
+    from gltf_iri.budgets.plans import plan_within
+
+    _check_alone(method)
+    return plan_within(material, index, Asked(budget, 1e6, "glsl"))
 
 
 def evaluate(
@@ -71,6 +84,7 @@ def evaluate(
     white: str | Light = "D65",
     backend: str = "auto",
     parameters: Mapping[str, float | str] | None = None,
+    budget: float | None = None,
 ) -> Evaluation:
     """Return the reflectance colour of a film over a base, or of a Bragg mirror, ``.rgb`` of shape (..., 3).
 
@@ -96,10 +110,13 @@ def evaluate(
     white : "D65", "E", or a `gltf_iri.colour.spaces.Light`: any illuminant, with any RGB space.
     backend : "auto", "numpy" or "numba" (compiled loops, the extra `fast`); the result names the one used.
     parameters : of the method, by name (``Method.parameters``).
+    budget : instead of a method, the most that the p95 of CIEDE2000 against the truth may be: the cheapest
+        method that keeps it is taken, and the result tells its bound as ``.delta_e``; 0 is the truth.
 
     At most one of the three bases; without any, glTF's default index 1.5. Raises UsageError for an unknown
-    method, white, backend or parameter, for two bases, for film and mirror at once, for values out of range
-    and for shapes that do not broadcast; MissingCapabilityError for "numba" where it is not installed.
+    method, white, backend or parameter, for two bases, for film and mirror at once, for values out of range,
+    shapes that do not broadcast and budgets that nothing keeps; MissingCapabilityError for "numba" where it
+    is not installed.
     """
     from collections.abc import Iterable
 
@@ -128,6 +145,11 @@ def evaluate(
         base = _base(base_f0, base_ior, base_nk, base_edge_tint)
         subject = Film.of(cos_theta_1, thickness_nm, index, base, 1.0 if outside_ior is None else outside_ior)
     default = DEFAULT_METHOD if bragg is None else DEFAULT_MIRROR_METHOD
+    if budget is not None:
+        from gltf_iri.budgets.subjects import evaluate_within
+
+        _check_alone(method or parameters)
+        return evaluate_within(subject, budget, white=white, backend=backend)
     return evaluate_subject(
         default if method is None else method,
         subject,
@@ -146,6 +168,7 @@ def render(
     environment: Environment | str | PathLike[str] | None = "studio",
     method: str | None = None,
     samples: int = 4,
+    budget: float | None = None,
 ) -> Frame:
     """Draw one scene of `model` without a window; ``.rgba`` is float32 (height, width, 4), row 0 at the top.
 
@@ -159,9 +182,12 @@ def render(
     environment : image light and background: "studio", "white", a .hdr or .exr file, or None for neither.
     method : name of the film method; None leaves the choice to the plan.
     samples : per pixel, a power of two; 1 for its centre alone.
+    budget : instead of a method, the most that the p95 of CIEDE2000 against the truth may be: each film is
+        drawn the cheapest way that keeps it over all that its textures hold; 0 is the truth.
 
     Raises AssetError where geometry or images are broken, UsageError for a camera, file, size or method that
-    does not exist or cannot be drawn, MissingCapabilityError where the machine has no OpenGL.
+    does not exist or cannot be drawn and for a budget that nothing keeps, MissingCapabilityError where the
+    machine has no OpenGL.
     """
     import os
 
@@ -174,12 +200,31 @@ def render(
     shown = model.scene(scene)
     seen_from = camera if isinstance(camera, Camera) else choose_camera(shown, camera, size)
     light = choose_environment(environment) if isinstance(environment, str | os.PathLike) else environment
-    plans = plan_materials(model.materials, method=method, document=model.document, scene=shown)
+    tables: Mapping[int, Mapping[Lobe, BakedTable]] = {}
+    if budget is None:
+        plans = plan_materials(model.materials, method=method, document=model.document, scene=shown)
+    else:
+        from gltf_iri.baking.fill import bake_plans
+        from gltf_iri.budgets.plans import plans_within
+
+        _check_alone(method)
+        pixels, is_lit = size[0] * size[1], light is not None and bool(light.radiance.any())
+        plans = plans_within(model, shown, budget, size_pixels=pixels, has_image_light=is_lit)
+        tables = bake_plans(plans)
     context = create_context()
     try:
-        return Renderer(context).render(model, shown, plans, seen_from, light, size=size, samples=samples)
+        return Renderer(context).render(
+            model, shown, plans, seen_from, light, size=size, samples=samples, tables=tables
+        )
     finally:
         context.release()
+
+
+def _check_alone(chosen: object) -> None:
+    from gltf_iri.errors import UsageError
+
+    if chosen:
+        raise UsageError("A budget chooses method and parameters: give it alone.")
 
 
 def _base(

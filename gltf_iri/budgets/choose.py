@@ -17,7 +17,7 @@ from gltf_iri.budgets.candidates import (
 from gltf_iri.budgets.errors import FilmErrors, Measured
 from gltf_iri.budgets.samples import base_spans
 from gltf_iri.budgets.search import Chosen, TableOffer, cheapest_way, check_budget, figure, the_truth
-from gltf_iri.colour.spaces import White
+from gltf_iri.colour.spaces import Light
 from gltf_iri.planning.costs import Device
 from gltf_iri.planning.film_table import FilmTable, Lobe, TableAxis
 from gltf_iri.planning.method import METHODS
@@ -46,7 +46,7 @@ class Asked:
     budget: float
     colours: float
     device: Device
-    white: White = "D65"
+    white: str | Light = "D65"
     has_image_light: bool = False
     bare_at_grazing: float | None = 1.0
     is_film_needed: bool = False
@@ -89,7 +89,7 @@ def choose_way(reach: Reach, asked: Asked, subject: str) -> Chosen:
     return chosen
 
 
-def way_for_films(reach: Reach, budget: float, *, count: int, white: White = "D65") -> Way:
+def way_for_films(reach: Reach, budget: float, *, count: int, white: str | Light = "D65") -> Way:
     """Return the cheapest way for the colours of `count` films within `reach`, in Python.
 
     Raises UsageError as `choose_way`.

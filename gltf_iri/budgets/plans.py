@@ -3,25 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from gltf_iri.budgets.choose import Asked, choose_way
 from gltf_iri.budgets.search import Chosen, check_budget
-from gltf_iri.colour.spaces import White
+from gltf_iri.colour.spaces import Light
 from gltf_iri.material.material import Material
 from gltf_iri.planning.costs import Device
 from gltf_iri.planning.decide import complete_plans, plan_material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.material_reach import material_reach, vertex_colour_spans
+from gltf_iri.planning.material_reach import ColourSpans, material_reach, vertex_colour_spans
+from gltf_iri.planning.permutation import shines
 from gltf_iri.planning.reach import Reach
 from gltf_iri.planning.simplify import simplified
 
 if TYPE_CHECKING:
+    from gltf_iri.asset.document import Document
     from gltf_iri.scene.load import Model
     from gltf_iri.scene.model import Scene
 
-__all__ = ["plans_within"]
+__all__ = ["plan_within", "plans_within"]
 
 
 def plans_within(
@@ -31,7 +34,7 @@ def plans_within(
     *,
     size_pixels: int,
     has_image_light: bool,
-    white: White = "D65",
+    white: str | Light = "D65",
     device: Device = "glsl",
     with_unused: bool = False,
     advance: Callable[[], None] = lambda: None,
@@ -49,36 +52,55 @@ def plans_within(
     """
     check_budget(budget)
     used = None if scene is None or with_unused else {each.material for each in scene.primitives}
-    colours = {} if scene is None else vertex_colour_spans(scene)
-    lights = (0 if scene is None else len(scene.lights)) + has_image_light
+    met = {} if scene is None else vertex_colour_spans(scene)
+    lamps = 0 if scene is None else sum(shines(light) for light in scene.lights)
     chosen: dict[tuple[Reach, Asked], Chosen] = {}
     plans = []
     for index, material in enumerate(model.materials):
         if used is not None and index not in used:
             plans.append(plan_material(material, index))
-            advance()
-            continue
-        drawn, folded = simplified(material, model.document)
-        reach = material_reach(drawn, model.document, colours.get(index))
-        plan = plan_material(drawn, index, reach=reach, folded=folded)
-        if reach is not None and plan.calls_for(Effect.IRIDESCENCE):
+        else:
             asked = Asked(
-                budget,
-                size_pixels * max(lights, 1),
-                device,
-                white,
-                has_image_light,
-                _bare_at_grazing(drawn),
-                has_spread=device == "glsl" and plan.calls_for(Effect.IRIDESCENCE_THICKNESS_TEXTURE),
+                budget, size_pixels * max(lamps + has_image_light, 1), device, white, has_image_light
             )
-            key = (reach, asked)
-            if key not in chosen:
-                chosen[key] = choose_way(reach, asked, f"material '{material.name or index}'")
-            way, reason = chosen[key].way, chosen[key].reason
-            plan = plan_material(drawn, index, reach=reach, way=way, way_reason=reason, folded=folded)
-        plans.append(plan)
+            plans.append(
+                plan_within(material, index, asked, model.document, met.get(index), already_chosen=chosen)
+            )
         advance()
     return tuple(plans) if scene is None else complete_plans(plans, scene)
+
+
+def plan_within(
+    material: Material,
+    index: int,
+    asked: Asked,
+    document: Document | None = None,
+    vertex_colours: ColourSpans | None = None,
+    *,
+    already_chosen: dict[tuple[Reach, Asked], Chosen] | None = None,
+) -> MaterialPlan:
+    """Return the plan of one material with the cheapest way to its film that keeps `asked.budget`.
+
+    document : of the material's textures; without one they may hold anything.
+    already_chosen : what other materials were given, which is read and written.
+
+    Raises UsageError as `choose_way`.
+    """
+    drawn, folded = (material, {}) if document is None else simplified(material, document)
+    reach = material_reach(drawn, document, vertex_colours)
+    plan = plan_material(drawn, index, reach=reach, folded=folded)
+    if reach is None or not plan.calls_for(Effect.IRIDESCENCE):
+        return plan
+    asked = replace(
+        asked,
+        bare_at_grazing=_bare_at_grazing(drawn),
+        has_spread=asked.device == "glsl" and plan.calls_for(Effect.IRIDESCENCE_THICKNESS_TEXTURE),
+    )
+    known = {} if already_chosen is None else already_chosen
+    if (reach, asked) not in known:
+        known[reach, asked] = choose_way(reach, asked, f"material '{material.name or index}'")
+    found = known[reach, asked]
+    return plan_material(drawn, index, reach=reach, way=found.way, way_reason=found.reason, folded=folded)
 
 
 def _bare_at_grazing(material: Material) -> float | None:

@@ -207,6 +207,7 @@ class Evaluation:
     backend : "numpy", "numba", or the OpenGL renderer.
     undefined : for each case that occurred and that the method leaves undefined, the mask (...) of its rows.
     parameters : what the method's parameters were.
+    delta_e : what the p95 of CIEDE2000 lies below, where a budget chose the method; else None.
     """
 
     rgb: Float64
@@ -215,3 +216,4 @@ class Evaluation:
     backend: str = "numpy"
     undefined: Mapping[str, NDArray[np.bool_]] = field(default_factory=dict)
     parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
+    delta_e: float | None = None
