@@ -9,6 +9,7 @@ import click
 
 from gltf_iri.backends import BACKENDS
 from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
+from gltf_iri.cli.evaluate_array import DEFAULT_COLUMNS, array_to_array
 from gltf_iri.cli.evaluate_subject import (
     DEFAULT_BASE,
     DEFAULT_FILM,
@@ -28,6 +29,7 @@ __all__ = ["command"]
 
 # Even in cos θ, from straight on to grazing.
 _DEFAULT_COSINES = tuple(i / 10 for i in range(10, -1, -1))
+_BY_DEFAULT = click.core.ParameterSource.DEFAULT
 
 
 def _parameters_help() -> str:
@@ -95,6 +97,22 @@ def _allowed(parameter: Parameter) -> str:
 )
 @click.option("--backend", type=click.Choice(BACKENDS), default="auto", help="What calculates [auto].")
 @click.option("--white", metavar="D65|E", default="D65", help="White of the colours [D65].")
+@click.option(
+    "--in",
+    "source",
+    type=click.Path(path_type=Path),
+    metavar="FILMS.npy",
+    help="Films, a row each, for --out.",
+)
+@click.option(
+    "--out", type=click.Path(path_type=Path), metavar="COLOURS.npy", help="Colours, a row each, of --in."
+)
+@click.option(
+    "--columns",
+    metavar="NAME,NAME,…",
+    help="What --in holds: cos, thickness, film_ior, outside_ior, base_f0 or base_r, base_g, base_b "
+    f"[{','.join(DEFAULT_COLUMNS)}].",
+)
 @click.option("--layered", is_flag=True, help="Add the specular colour and base weight of FILE's material.")
 @json_option
 def command(
@@ -103,6 +121,9 @@ def command(
     cosines: tuple[float, ...],
     method: str | None,
     white: str,
+    source: Path | None,
+    out: Path | None,
+    columns: str | None,
     layered: bool,
     settings: tuple[tuple[str, str], ...],
     backend: str,
@@ -112,12 +133,21 @@ def command(
     """Print the film's or mirror's reflectance colour, linear Rec.709, at the outside angle's cosines.
 
     Either of a material of FILE, at its thickness maximum and without its textures, or of a film or a Bragg
-    mirror given by options. Colours are not cut to the gamut: the truth may be negative in a channel.
+    mirror given by options; or of all the films in a .npy file, into another. Colours are not cut to the
+    gamut: the truth may be negative in a channel.
     """
     parameters = dict(settings)
     if len(parameters) < len(settings):
         raise click.UsageError("--set names a parameter twice; give each once")
     how = How(method, white, backend, parameters)
+    if source is not None:
+        if layered or click.get_current_context().get_parameter_source("cosines") is not _BY_DEFAULT:
+            raise click.UsageError("--in has its cosines in a column, and no --layered")
+        names = DEFAULT_COLUMNS if columns is None else tuple(name.strip() for name in columns.split(","))
+        array_to_array(source, out, names, file, material, how, None, subject, as_json=as_json)
+        return
+    if out is not None or columns is not None:
+        raise click.UsageError("--out and --columns need --in, a .npy file of films")
     if file is not None:
         result = from_file(file, material, cosines, how, layered, subject)
     elif material is not None or layered:

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from gltf_iri.evaluation.film import Evaluation
     from gltf_iri.material.material import Material
 
-__all__ = ["DEFAULT_BASE", "DEFAULT_FILM", "DEFAULT_OUTSIDE_IOR", "How", "from_file", "from_mirror"]
-__all__ += ["from_parameters"]
+__all__ = ["DEFAULT_BASE", "DEFAULT_FILM", "DEFAULT_OUTSIDE_IOR", "How", "chosen_material", "from_file"]
+__all__ += ["from_mirror", "from_parameters"]
 
 # glTF's own defaults, for the film and for its base.
 DEFAULT_FILM = Iridescence()
@@ -108,7 +108,7 @@ def from_file(
         if value is not None and option != "thickness":
             raise click.UsageError(f"FILE's material decides --{option.replace('_', '-')}; leave it out")
     materials = load(file).materials
-    index = _chosen(materials, name, file)
+    index = chosen_material(materials, name, file)
     plan = plan_material(materials[index], index, method=how.method)
     done = evaluate_material(
         materials[index],
@@ -128,8 +128,11 @@ def from_file(
     return result
 
 
-def _chosen(materials: tuple[Material, ...], name: str | None, file: Path) -> int:
-    """Return the index of the material called `name` or numbered so, or of the only one with a film."""
+def chosen_material(materials: tuple[Material, ...], name: str | None, file: Path) -> int:
+    """Return the index of the material called `name` or numbered so, or of the only one with a film.
+
+    Raises UsageError where there is none, or more than one, and lists them.
+    """
     from gltf_iri.errors import UsageError
 
     candidates = list(range(len(materials)))

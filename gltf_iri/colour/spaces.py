@@ -14,7 +14,16 @@ from typing import Any, Final, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["WHITES", "XYZ_TO_REC709", "Light", "White", "rec709_to_xyz", "rgb_matrix", "xyz_to_rec709"]
+__all__ = [
+    "WHITES",
+    "XYZ_TO_REC709",
+    "Light",
+    "White",
+    "WhiteName",
+    "rec709_to_xyz",
+    "rgb_matrix",
+    "xyz_to_rec709",
+]
 
 WhiteName = Literal["D65", "E"]
 

@@ -51,6 +51,7 @@ OPENERS = {
     "rendering/source.py",  # the program's own shaders
     "colour/observer.py",  # the program's own tables
     "compiled/loops.py",  # the sources of compiled loops, to know their machine code by
+    "baking/memory.py",  # what Linux says of the process
     "baking/stream.py",  # keeps room on the disk for the array that whole_files.py hands it
     "samples/collection.py",  # looks at the index of an earlier collection
     "baking/cache.py",  # tables that it wrote itself, and the sources that filled them
