@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 
 __all__ = ["baked_tables", "budget_option", "check_choice", "plan_scene", "way_rows"]
 
+_BOTH = "either chooses the method"
+_WHY = {"reference": "rays take any method at its full length, and a --method names it"}
+
 budget_option = click.option(
     "--budget",
     type=float,
@@ -35,7 +38,7 @@ def check_choice(budget: float | None, **others: object) -> None:
     check_budget(budget)
     for name, given in others.items():
         if given:
-            raise UsageError(f"--budget chooses what --{name} names: give one of them.")
+            raise UsageError(f"--budget and --{name} do not go together: {_WHY.get(name, _BOTH)}.")
 
 
 def plan_scene(
@@ -74,7 +77,7 @@ def plan_scene(
 
 
 def baked_tables(
-    plans: Sequence[MaterialPlan], white: str, advance: Callable[[], None] = lambda: None
+    plans: Sequence[MaterialPlan], white: str = "D65", advance: Callable[[], None] = lambda: None
 ) -> Mapping[int, Mapping[Lobe, BakedTable]]:
     """Return the filled tables of `plans`; without any, the machinery that fills them is not loaded."""
     if not any(plan.way is not None and plan.way.tables for plan in plans):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from gltf_iri.cli.budget import budget_option, check_choice, plan_scene
 from gltf_iri.cli.common import (
     file_argument,
     json_option,
@@ -45,6 +46,7 @@ __all__ = ["command"]
     help="Folder for the pictures, report.json and index.html.  [default: FILE's name + '-compared', here]",
 )
 @click.option("--method", metavar="NAME", help="Film method; the plan chooses when left out.")
+@budget_option
 @click.option("--size", type=SIZE, default="480x360", show_default=True, help="Size in pixels.")
 @click.option(
     "--env", default="studio", show_default=True, metavar="FILE|studio|white|none", help="Image light."
@@ -62,6 +64,7 @@ def command(
     file: Path,
     out: str | None,
     method: str | None,
+    budget: float | None,
     size: tuple[int, int],
     env: str,
     camera: int | None,
@@ -81,7 +84,6 @@ def command(
     from gltf_iri.comparison.report import write_report
     from gltf_iri.comparison.run import STEPS, compare
     from gltf_iri.errors import AssetError, UsageError
-    from gltf_iri.planning.decide import plan_materials
     from gltf_iri.rendering.context import create_context
     from gltf_iri.rendering.render import Renderer
     from gltf_iri.scene.choose import choose_camera, choose_environment
@@ -90,10 +92,12 @@ def command(
     if out == "":
         raise UsageError("The name of the folder is empty; write '.' for this one.")
     counts = reference_counts(reference, samples, paths)
+    check_choice(budget, method=method)
     environment = choose_environment(env)
     model = load(file)
     scene = model.scene()
-    plans = plan_materials(model.materials, method=method, document=model.document, scene=scene)
+    plans = plan_scene(model, scene, method, budget, size=size, environment=environment, white=white)
+
     view = choose_camera(scene, camera, size)
     folder = Path(f"{file.stem}-compared" if out is None else out)
     # matplotlib warns where there is no home to keep its fonts' list in; the figures are the same.

@@ -13,6 +13,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from gltf_iri.baking.baked import BakedTable
+    from gltf_iri.planning.film_table import Lobe
     from gltf_iri.planning.material_plan import MaterialPlan
     from gltf_iri.rendering.frame import Frame
     from gltf_iri.scene.load import Model
@@ -35,6 +37,7 @@ def opengl(
     plans: Sequence[MaterialPlan],
     environment: Environment | None,
     size: tuple[int, int],
+    tables: Mapping[int, Mapping[Lobe, BakedTable]],
 ) -> Brush:
     """Return OpenGL, one renderer for all pictures; MissingCapabilityError where there is none."""
     from gltf_iri.rendering.context import create_context
@@ -43,7 +46,7 @@ def opengl(
     renderer = Renderer(create_context())
 
     def draw(view: Camera, advance: Callable[[], None]) -> Frame:
-        frame = renderer.render(model, scene, plans, view, environment, size=size)
+        frame = renderer.render(model, scene, plans, view, environment, size=size, tables=tables)
         advance()
         return frame
 

@@ -8,7 +8,17 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gltf_iri.cli.common import file_argument, json_option, material_label, note, print_json, print_table
+from gltf_iri.cli.budget import budget_option, check_choice, plan_scene, way_rows
+from gltf_iri.cli.common import (
+    file_argument,
+    json_option,
+    material_label,
+    note,
+    print_json,
+    print_table,
+    progress,
+)
+from gltf_iri.cli.picture_options import SIZE
 
 if TYPE_CHECKING:
     from gltf_iri.planning.material_plan import MaterialPlan
@@ -20,8 +30,14 @@ __all__ = ["command"]
 @click.command(name="plan")
 @file_argument
 @click.option("--method", metavar="NAME", help="Film method to plan for; left out, the plan chooses.")
+@budget_option
+@click.option(
+    "--size", type=SIZE, default="640x480", show_default=True, help="Size of the picture a budget is for."
+)
 @json_option
-def command(file: Path, method: str | None, as_json: bool) -> None:
+def command(
+    file: Path, method: str | None, budget: float | None, size: tuple[int, int], as_json: bool
+) -> None:
     """Say which effects each material of FILE calls for, which it does not, and why.
 
     Materials are planned from the JSON and the textures, which may hold the same everywhere. The shader
@@ -30,10 +46,11 @@ def command(file: Path, method: str | None, as_json: bool) -> None:
     covers, as `bench accuracy` measured them.
     """
     from gltf_iri.errors import AssetError
-    from gltf_iri.planning.decide import plan_materials
     from gltf_iri.planning.texels import unread_images
+    from gltf_iri.scene.environment import white
     from gltf_iri.scene.load import load
 
+    check_choice(budget, method=method)
     model = load(file)
     notes = list(model.notes)
     scene: Scene | None = None
@@ -42,9 +59,17 @@ def command(file: Path, method: str | None, as_json: bool) -> None:
     except AssetError as error:
         notes.append(f"The shader permutations are left out: {error}")
         notes.append("Colours of vertices may be any, for all the plan knows.")
-    plans = plan_materials(
-        model.materials, method=method, document=model.document, scene=scene, with_unused=True
-    )
+    with progress("Planning", len(model.materials)) as advance:
+        plans = plan_scene(
+            model,
+            scene,
+            method,
+            budget,
+            size=size,
+            environment=white(),
+            with_unused=True,
+            advance=advance,
+        )
     unread = [
         f"{told} It may hold anything, for all the plan knows." for told in unread_images(model.document)
     ]
@@ -106,6 +131,8 @@ def _rows(plan: MaterialPlan, saved: Mapping[str, float]) -> Iterator[Sequence[s
     yield label, "calls for", ", ".join(effect.value for effect in plan.effects) or "nothing"
     if plan.method is not None:
         yield "", "method", f"{plan.method} ({plan.method_reason})"
+        for what, told in way_rows(plan):
+            yield "", what, told
     for effect, reason in plan.skipped.items():
         if effect not in plan.absent:
             ns = saved.get(effect.value)

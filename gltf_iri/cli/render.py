@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from gltf_iri.cli.budget import baked_tables, budget_option, check_choice, plan_scene
 from gltf_iri.cli.common import file_argument, json_option, note, print_json, progress
 from gltf_iri.cli.drawing import Drawn, opengl, rays
 from gltf_iri.cli.picture_options import (
@@ -56,6 +57,7 @@ _TONE_MAPS = ("none", "neutral", "aces")
     help="N pictures once around the scene: an animated WebP, or OUT-000.png and so on.",
 )
 @click.option("--method", metavar="NAME", help="Film method; the plan chooses when left out.")
+@budget_option
 @reference_options("Cast rays on the CPU instead: slow, without OpenGL, through the pixels' centres.")
 @json_option
 def command(
@@ -68,6 +70,7 @@ def command(
     camera: int | None,
     orbit: int | None,
     method: str | None,
+    budget: float | None,
     reference: bool,
     samples: int | None,
     paths: int | None,
@@ -80,7 +83,6 @@ def command(
     out of focus (by rays it is sharp), in the studio a card.
     """
     from gltf_iri.errors import UsageError
-    from gltf_iri.planning.decide import plan_materials
     from gltf_iri.rendering.picture import check_picture_path, write_orbit, write_picture
     from gltf_iri.rendering.programs import check_method
     from gltf_iri.scene.choose import choose_camera, choose_environment
@@ -89,6 +91,7 @@ def command(
 
     check_picture_path(out)
     counts = reference_counts(reference, samples, paths)
+    check_choice(budget, method=method, reference=reference)
     if not reference:
         check_method(method)  # rays take any method for films, the truth included
     is_linear = out.suffix.lower() == ".exr"
@@ -103,10 +106,11 @@ def command(
         views: tuple[Camera, ...] = (choose_camera(scene, camera, size),)
     else:
         views = orbit_scene(scene, aspect=max(size[0], 1) / max(size[1], 1), count=orbit)
-    plans = plan_materials(model.materials, method=method, document=model.document, scene=scene)
+    plans = plan_scene(model, scene, method, budget, size=size, environment=environment)
+    tables = baked_tables(plans)
     exposure_ev = choose_exposure(exposure, scene, environment, default="0" if is_linear else "auto")
     subject = (model, scene, plans, environment, size)
-    brush = rays(*subject, counts) if reference else opengl(*subject)
+    brush = rays(*subject, counts) if reference else opengl(*subject, tables)
     with progress("Drawing", len(views) * brush.steps + 1) as advance:
         drawn = Drawn(brush.draw)
         pictures = drawn.pictures(views, advance)
@@ -135,6 +139,12 @@ def command(
         "ms": round(drawn.milliseconds, 3),
         "passes": {name: round(spent, 3) for name, spent in drawn.passes.items()},
         "method": next((plan.method for plan in used if plan.method is not None), None),
+        "budget": budget,
+        "ways": [
+            {"material": plan.index, "name": plan.name, **plan.way.to_json()}
+            for plan in used
+            if plan.way is not None
+        ],
         "environment": environment.name if environment else None,
         "exposure": exposure_ev,
         "camera": views[0].name,
