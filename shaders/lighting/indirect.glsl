@@ -1,11 +1,15 @@
 // Light of the environment and from behind on the surface, below any coat: the split sum.
 // Karis 2013, "Real Shading in Unreal Engine 4".
 
-#include "lighting/dfg.glsl"
-#include "lighting/footprint.glsl"
-#include "lighting/lobes.glsl"
 #include "lighting/view.glsl"
 #include "pass/surface_outputs.glsl"
+#if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION) || defined(HAS_CLEARCOAT)
+#include "lighting/dfg.glsl"
+#include "lighting/footprint.glsl"
+#endif
+#if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)
+#include "lighting/lobes.glsl"
+#endif
 #ifdef HAS_IMAGE_LIGHT
 #include "lighting/environment.glsl"
 #endif
@@ -67,6 +71,7 @@ ImageLight image_light(Surface s, View w) {
     return image;
 }
 
+#if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)
 vec3 image_lighting(Surface s, View w, ImageLight image) {
 #ifdef FILM_FACET_MEAN
     float facet_cosine = image.facet_cosine;
@@ -85,3 +90,4 @@ vec3 image_lighting(Surface s, View w, ImageLight image) {
 #endif
     return sent;
 }
+#endif

@@ -22,7 +22,6 @@ centroid in vec4 v_tangent;
 #include "pass/surface_outputs.glsl"
 #ifndef HAS_UNLIT
 #include "lighting/indirect.glsl"
-#include "lighting/lobes.glsl"
 #ifdef HAS_PUNCTUAL_LIGHTS
 #include "lighting/direct.glsl"
 #endif

@@ -34,9 +34,7 @@ def test_the_film_has_the_mirrors_colour():
     np.testing.assert_allclose(film.rgb, mirror.rgb, rtol=0, atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    "case", [dict(cells=2), dict(host_ior=1.0), dict(n2=1.5 + 0.1j), dict(n1=2.0 + 1e-9j)]
-)
+@pytest.mark.parametrize("case", [{"cells": 2}, {"host_ior": 1.0}, {"n2": 1.5 + 0.1j}, {"n1": 2.0 + 1e-9j}])
 def test_no_other_mirror_is_a_film(case):
     given = {"n1": 1.5, "n2": 2.0, "d2_nm": 100.0, "cells": 1, "host_ior": 1.5} | case
     assert film_in_mirror(**given) is None
