@@ -20,14 +20,17 @@ from gltf_iri.planning.method import METHODS, Domain, method_names
 from gltf_iri.planning.settings import ACCURACY_SETTINGS, settings_of, with_defaults
 from gltf_iri.planning.way import Way
 from gltf_iri.rendering.probe import Probe
-from gltf_iri.rendering.table_call import table_call
+from gltf_iri.rendering.table_call import table_call, texture_call
 from gltf_iri.rendering.timed_calls import TimedCall, call_colours, time_calls
 from gltf_iri.rendering.timing import twin_call
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["glsl_rows"]
+__all__ = ["TEXTURE", "glsl_rows"]
+
+# The row of one filtered sample of a material's texture: what leaving one out saves.
+TEXTURE: Final = "texture"
 
 _ROUNDS: Final = 9
 _SIDE: Final = 256
@@ -57,8 +60,8 @@ def glsl_rows(
         for each in filter(lambda each: each.baked, tables):
             calls.append(table_call(context, each.baked[0], film_of(each.points)))
             rows.append(_table_row(context, workload, each))
-        if not calls:
-            return []
+        calls.append(texture_call(context, calls[0]))
+        rows.append(AccuracyRow(workload, "glsl", TEXTURE, TEXTURE, None, 0.0, None))
         times = time_calls(context, calls, rounds=_ROUNDS, side=_SIDE, limit_s=limit_s)
     finally:
         for call in calls:

@@ -10,7 +10,7 @@ from typing import Any, Final
 
 from gltf_iri.bench.optics import WRONG, OpticsRow
 
-__all__ = ["plot_optics"]
+__all__ = ["apart", "plot_optics", "png_bytes"]
 
 _PANEL_IN: Final = (4.6, 3.8)
 _COLUMNS: Final = 3
@@ -39,6 +39,11 @@ def plot_optics(rows: Sequence[OpticsRow]) -> bytes:
         axes.set_axis_off()
     for axes, (name, group) in zip(grid.flat, panels, strict=False):
         _panel(axes, name, group)
+    return png_bytes(figure)
+
+
+def png_bytes(figure: Any) -> bytes:
+    """Return a figure as a PNG file."""
     stream = io.BytesIO()
     figure.savefig(stream, format="png")
     return stream.getvalue()
@@ -51,7 +56,7 @@ def _panel(axes: Any, name: str, rows: list[OpticsRow]) -> None:
     axes.set_xscale("log")
     axes.set_xlim(_LEAST_ERROR, _MOST_ERROR)
     axes.axvline(WRONG, color="tab:orange", linewidth=0.8, linestyle=":")
-    places = _apart(heights, _LABEL_HEIGHT * (top - bottom))
+    places = apart(heights, _LABEL_HEIGHT * (top - bottom))
     for row, height, place in zip(shown, heights, places, strict=True):
         max_abs = row.max_abs if row.max_abs is not None else math.nan
         is_right = max_abs > WRONG or math.isnan(max_abs)
@@ -77,7 +82,7 @@ def _panel(axes: Any, name: str, rows: list[OpticsRow]) -> None:
     axes.grid(visible=True, linewidth=0.3)
 
 
-def _apart(heights: Sequence[float], least: float) -> list[float]:
+def apart(heights: Sequence[float], least: float) -> list[float]:
     """Return rising `heights`, moved up where two are nearer than `least`, so that labels stay legible."""
     places: list[float] = []
     for height in heights:

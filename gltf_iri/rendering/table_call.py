@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+import numpy as np
+
 from gltf_iri.baking.baked import BakedTable
 from gltf_iri.evaluation.film import Film
 from gltf_iri.planning.effects import Effect
@@ -18,8 +20,9 @@ from gltf_iri.rendering.twins import FILM_TYPES, film_arguments
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["table_call"]
+__all__ = ["table_call", "texture_call"]
 
+_TEXTURE: Final = 512
 _FILLED_BY: Final = "spectral"
 
 # The film's arguments a0 to a4: outside, film index, base, thickness, cosine. The roughness axis, where there
@@ -47,6 +50,25 @@ def table_call(context: moderngl.Context, baked: BakedTable, film: Film) -> Time
         textures={f"u_{table.lobe}_table": film_table_texture(context, baked)},
         uniforms=film_table_uniforms(table),
         defines=_defines(table),
+    )
+
+
+def texture_call(context: moderngl.Context, beside: TimedCall) -> TimedCall:
+    """Return one sample of a texture of 8 bits with mip levels, as materials have them.
+
+    Its arguments are those of `beside`, which it does not read; the texture is the caller's to release.
+    """
+    texels = np.random.default_rng(0).integers(0, 256, (_TEXTURE, _TEXTURE, 4), dtype=np.uint8)
+    texture = context.texture((_TEXTURE, _TEXTURE), 4, texels.tobytes())
+    texture.build_mipmaps()
+    texture.filter = (context.LINEAR_MIPMAP_LINEAR, context.LINEAR)
+    return TimedCall(
+        "a texture",
+        ("uniform highp sampler2D timed_texture;",),
+        f"texture(timed_texture, gl_FragCoord.xy * {1.5 / _TEXTURE}).rgb",
+        beside.types,
+        beside.arguments,
+        textures={"timed_texture": texture},
     )
 
 
