@@ -30,8 +30,8 @@ Float64 = NDArray[np.float64]
 
 _FILMS_AT_ONCE: Final = 1 << 14  # an interrupt waits for so many truths at most
 
-# What the Chebyshev series of the cosine may leave out: below what texels round.
-_SERIES_MAX_ERROR: Final = {"f2": 1e-5, "f4": 1e-7}
+# What means over facets may err by, about: less than half precision rounds, and than single precision is for.
+_FACET_MAX_ERROR: Final = {"f2": 1e-5, "f4": 1e-6}
 
 # A Gaussian is cut 5.6 standard deviations off, where 2e-8 of it is left.
 _REACH: Final = 5.6
@@ -142,11 +142,13 @@ def _texels(table: FilmTable, white: str) -> Float64:
         hardest = np.unique(thickness_nm[[0, -1, len(thickness_nm) // 2]])
         ends = base_f0[[0, -1]]
         terms = terms_for(
-            lambda at: np.moveaxis(truth(at, hardest, ends), 0, -2), _SERIES_MAX_ERROR[table.texel]
+            lambda at: np.moveaxis(truth(at, hardest, ends), 0, -2), _FACET_MAX_ERROR[table.texel]
         )
         more_cosines = chebyshev_cosines(terms)
         over_facets = [
-            facet_moments(cosine, np.full(1, r), terms) @ to_coefficients(terms) for r in roughness[1:]
+            facet_moments(cosine, np.full(1, r), terms, _FACET_MAX_ERROR[table.texel])
+            @ to_coefficients(terms)
+            for r in roughness[1:]
         ]
     more_nm = spread_thicknesses(table)
     over_nm = [spread_matrix(thickness_nm, more_nm, float(s)) for s in spread_nm[1:]]

@@ -67,14 +67,15 @@ def test_rough_texels_are_means_over_facets() -> None:
     np.testing.assert_array_equal(texels[:, :, 0], bake(table_of(COS, NM)).texels)
 
 
-@pytest.mark.parametrize("low_nm", [0.0, 150.0])
-def test_spread_texels_are_the_closed_form_s(low_nm: float) -> None:
+# Around thickness 0 the closed form sums 33 films, 0.35 standard deviations apart: too few for sharp fringes.
+@pytest.mark.parametrize(("low_nm", "atol"), [(0.0, 1e-5), (150.0, SERIES_MAX_ABS)])
+def test_spread_texels_are_the_closed_form_s(low_nm: float, atol: float) -> None:
     nm = TableAxis("thickness_nm", Span(low_nm, 700.0), 4)
     texels = bake(table_of(COS, nm, SPREAD)).texels
     film = Film.of(axis_values(COS)[:, None], axis_values(nm), 1.4, base_from_f0(COLOUR))
     for s, spread_nm in enumerate(axis_values(SPREAD)[1:], start=1):
         expected = prefiltered_fourier(film, spread_nm, "D65", 1e-8)
-        np.testing.assert_allclose(texels[:, :, s], expected, rtol=0, atol=SERIES_MAX_ABS)
+        np.testing.assert_allclose(texels[:, :, s], expected, rtol=0, atol=atol)
     np.testing.assert_array_equal(texels[:, :, 0], bake(table_of(COS, nm)).texels)
 
 
