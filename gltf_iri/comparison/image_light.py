@@ -23,12 +23,12 @@ def image_light(
     """Return what n pixels send of the image light, (n, 3), without emission and clearcoat.
 
     Split sum (Karis 2013, "Real Shading in Unreal Engine 4"): what a lobe reflects of a white sky, times the
-    light that reaches it; plain = F0·A + B, film = F(N·V)·(A + B). The base transmits what the interface does
-    not reflect, colour by colour.
+    light that reaches it; plain = F0·A + B, film = F·(A + B), with F at N·V or the mean over the facets. The
+    base transmits what the interface does not reflect, colour by colour.
 
     Parameters
     ----------
-    filmed : the film's reflectances at N·V over the dielectric and over the metal, (n, 3) each.
+    filmed : the film's reflectances F over the dielectric and over the metal, (n, 3) each.
     """
     a, b = light.dfg_a[:, None], light.dfg_b[:, None]
     layers = layered_reflectances(

@@ -6,24 +6,29 @@ No OpenGL here: a frame from any renderer that writes the inputs can be judged.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.baking.baked import BakedTable
 from gltf_iri.colour.difference import delta_e_2000
-from gltf_iri.comparison.methods import BRANCH, TRUTH, film_method, white_of
+from gltf_iri.colour.spaces import White
+from gltf_iri.comparison.methods import BRANCH, TRUTH, film_method, table_method, white_of
 from gltf_iri.comparison.metric import Agreement, ColourError, agreement, colour_error, relative_deviation
 from gltf_iri.comparison.pixels import image_light_of_pixels, is_rough, surface_of_pixels
 from gltf_iri.comparison.result import Comparison, MaterialResult, PictureResult, Pictures, Split
 from gltf_iri.comparison.shade import shade
+from gltf_iri.comparison.truth import averaged_truth
 from gltf_iri.errors import AssetError, UsageError
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.film_on import FilmMethod
+from gltf_iri.rendering.film_tables import checked_tables
 from gltf_iri.rendering.frame import Frame, ShadingInputs
 from gltf_iri.scene.model import Camera, Light
 
@@ -35,7 +40,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class Shot:
-    """What is needed beside the frames to shade their pixels again."""
+    """What is needed beside the frames to shade their pixels again; `tables` as in `Renderer.render`."""
 
     file: str
     materials: Sequence[Material]
@@ -47,6 +52,7 @@ class Shot:
     setup: Mapping[str, Any]
     program: Mapping[str, str]
     notes: tuple[str, ...] = ()
+    tables: Mapping[int, Mapping[Lobe, BakedTable]] = field(default_factory=dict)
 
 
 def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Comparison:
@@ -145,14 +151,20 @@ def _judge_material(
 
 def _film_of(shot: Shot, plan: MaterialPlan) -> tuple[float, FilmMethod, FilmMethod]:
     """Return the film's index, the plan's method and the truth; without a film, none of them is used."""
-    truth = film_method(TRUTH, shot.white)
+    white = cast(White, shot.white)  # evaluators refuse names that they do not know
+    truth = film_method(TRUTH, white) if plan.way is None else averaged_truth(white)
     if not plan.calls_for(Effect.IRIDESCENCE) or plan.method is None:
         return 1.0, truth, truth
-    iridescence = shot.materials[plan.index].iridescence
+    iridescence = plan.material_in(shot.materials).iridescence
     if iridescence is None:
         raise UsageError(f"The plan of material {plan.index} has a film, but the material has none.")
     # The shader receives the index as float32, and a film of 10 µm shows the rounding.
-    return float(np.float32(iridescence.film_ior)), film_method(plan.method, shot.white), truth
+    parameters = {} if plan.way is None else plan.way.parameters
+    method = film_method(plan.method, white, parameters)
+    tables = checked_tables(plan, shot.tables)
+    if tables:
+        method = table_method(tables, method)
+    return float(np.float32(iridescence.film_ior)), method, truth
 
 
 def _left_out(undefined: Mapping[str, Mask], python: Float64, glsl: Float64) -> Mask:

@@ -35,6 +35,12 @@ class ImageLight:
     sheen_albedo: Float64  # what white fibres reflect
     facet_cosine: Float64  # the mean V·H of the facets that send it; 0 where no film asks for it
 
+    @property
+    def is_there(self) -> Mask:
+        """Where (n,) what the base's interface reflects of image light matters."""
+        colours = (self.reflected_radiance, self.irradiance, self.transmitted_radiance)
+        return np.asarray(np.any(np.concatenate(colours, axis=1) != 0.0, axis=1))
+
 
 def surface_of_pixels(inputs: ShadingInputs, mask: Mask, camera: Camera) -> Surface:
     """Return the pixels of `inputs` where `mask` (height, width) is set, with the camera's view of them.

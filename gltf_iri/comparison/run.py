@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 
 import numpy as np
 
 from gltf_iri import __version__
+from gltf_iri.baking.baked import BakedTable
 from gltf_iri.comparison.figures import TONEMAP
 from gltf_iri.comparison.judge import Shot, judge
 from gltf_iri.comparison.result import Comparison
 from gltf_iri.material.material import Material
 from gltf_iri.planning.decide import complete_plans
+from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.rendering.render import Renderer
 from gltf_iri.scene.load import Model
@@ -34,6 +37,7 @@ def compare(
     size: tuple[int, int],
     exposure: float = 0.0,
     white: str = "D65",
+    tables: Mapping[int, Mapping[Lobe, BakedTable]] = MappingProxyType({}),
     advance: Callable[[], None] = lambda: None,
 ) -> Comparison:
     """Draw `scene`, shade every pixel again in float64, by the plan's method and by truth, and compare.
@@ -45,16 +49,24 @@ def compare(
     size : width and height in pixels; each pixel is compared, none is sampled for another.
     exposure : in EV; linear light is multiplied by 2^exposure before ΔE2000 and for the pictures.
     white : of the truth and of the methods that know one, "D65" or "E".
+    tables : the films' tables of the plans whose way has some (`baking.fill.bake_plans`), under `white`.
     advance : called after each of STEPS.
 
-    Raises UsageError for an unknown white or a method without GLSL, MissingCapabilityError without OpenGL.
+    Of a plan with a way, image light is held against the truth's mean over the facets, not against F(N·V).
+
+    Raises UsageError for an unknown white, a method without GLSL or a missing table,
+    MissingCapabilityError without OpenGL.
     """
     plans = complete_plans(plans, scene)
     arguments = (model, scene, plans, camera, environment)
     has_textures = any(effect.value.endswith("-texture") for plan in plans for effect in plan.effects)
-    fine = renderer.render(*arguments, size=size, float_textures=True, with_inputs=True, white=white)
+    fine = renderer.render(
+        *arguments, size=size, float_textures=True, with_inputs=True, white=white, tables=tables
+    )
     advance()
-    coarse = renderer.render(*arguments, size=size, with_inputs=True, white=white) if has_textures else None
+    coarse = None
+    if has_textures:
+        coarse = renderer.render(*arguments, size=size, with_inputs=True, white=white, tables=tables)
     advance()
     shot = Shot(
         file=model.path.name,
@@ -63,6 +75,7 @@ def compare(
         lights=scene.lights,
         camera=camera,
         white=white,
+        tables=tables,
         exposure=2.0**exposure,
         setup={
             "size": list(size),

@@ -18,7 +18,7 @@ from gltf_iri.comparison.pixels import ImageLight
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.direct import punctual_lighting
-from gltf_iri.reference.film_on import FilmMethod, FilmOn
+from gltf_iri.reference.film_on import Facets, FilmMethod, FilmOn
 from gltf_iri.reference.lobes import film_reflectances
 from gltf_iri.reference.surface import Surface
 from gltf_iri.scene.model import Light
@@ -62,15 +62,20 @@ def shade(
     plan : the material's plan; says whether it is unlit and thin, and which layering applies.
     film_ior : the film's refractive index; not read where the surface has no film.
     lights : the scene's punctual lights.
-    method : maps a `Film` to its reflectance colours.
+    method : maps a `Film` and how it is seen to its reflectance colours; of a plan with a way, image light is
+        seen by facets.
     """
     film = FilmOn(surface, film_ior, method)
+    facets = None if plan.way is None else Facets(surface.perceptual_roughness, image.facet_cosine)
     if plan.calls_for(Effect.UNLIT):
         return Shading(surface.base_color, np.zeros_like(surface.base_color), film.has_film, "", {})
     everywhere = np.ones(len(surface.alpha_roughness), dtype=np.bool_)
-    filmed = film_reflectances(surface, plan, film, surface.n_dot_v, everywhere)
+    own_film = film_reflectances(surface, plan, film, surface.n_dot_v, everywhere)
+    filmed = own_film
+    if facets is not None:
+        filmed = film_reflectances(surface, plan, film, surface.n_dot_v, image.is_there, facets)
     rgb = under_clearcoat(surface, image, surface.emission + image_light(surface, image, plan, filmed))
     rgb += punctual_lighting(surface, lights, film, plan)
     share = surface.metallic[:, None]
-    own = (1.0 - share) * filmed[0] + share * filmed[1]
+    own = (1.0 - share) * own_film[0] + share * own_film[1]
     return Shading(rgb, own, film.has_film, film.white, film.undefined)

@@ -28,7 +28,7 @@ from gltf_iri.optics.microfacet import (
 )
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.film_on import FilmOn
+from gltf_iri.reference.film_on import Facets, FilmOn
 from gltf_iri.reference.layers import clearcoat_lobe, clearcoat_reflectance, fibre_lobe, fibre_passage
 from gltf_iri.reference.points import unit
 from gltf_iri.reference.surface import Surface
@@ -68,14 +68,24 @@ def evaluate_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan:
 
 
 def film_reflectances(
-    surface: Surface, plan: MaterialPlan, film: FilmOn, cos_theta: Float64, needed: Mask
+    surface: Surface,
+    plan: MaterialPlan,
+    film: FilmOn,
+    cos_theta: Float64,
+    needed: Mask,
+    facets: Facets | None = None,
 ) -> tuple[Float64, Float64]:
-    """Return the film's reflectances over dielectric and metal, (n, 3) each; 0 where not needed."""
+    """Return the film's reflectances over dielectric and metal, (n, 3) each; 0 where not needed.
+
+    facets : those that send image light; `cos_theta` is then N·V.
+    """
     # With KHR_materials_specular the reflection's weight belongs to the base under the film.
     weight = surface.specular_weight[:, None] if plan.layering == "specular" else 1.0
     return (
-        film(weight * surface.dielectric_f0, cos_theta, needed & (surface.metallic < 1.0)),
-        film(surface.base_color, cos_theta, needed & (surface.metallic > 0.0)),
+        film(
+            "dielectric", weight * surface.dielectric_f0, cos_theta, needed & (surface.metallic < 1.0), facets
+        ),
+        film("metal", surface.base_color, cos_theta, needed & (surface.metallic > 0.0), facets),
     )
 
 

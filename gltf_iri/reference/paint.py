@@ -17,7 +17,7 @@ from gltf_iri.reference.cutout import coverage
 from gltf_iri.reference.direct import emitted, punctual_lighting
 from gltf_iri.reference.edges import edge_distance_px
 from gltf_iri.reference.environment_map import EnvironmentMap
-from gltf_iri.reference.film_on import FilmMethod, FilmOn
+from gltf_iri.reference.film_on import FilmMethod, FilmOn, in_one_direction
 from gltf_iri.reference.film_table import TabulatedFilm
 from gltf_iri.reference.gather import gather_surface
 from gltf_iri.reference.glass import Scenery, Traced, trace_glass
@@ -194,7 +194,9 @@ class Painter:
         # Without a film there is no method, and none is ever called.
         name = job.film_method or plan.method or DEFAULT_METHOD
         if slot not in self._methods:
-            method = partial(evaluate, name, white=job.white)
+            parameters = plan.way.parameters if plan.way is not None and name == plan.way.method else {}
+            method = partial(evaluate, name, white=job.white, parameters=parameters)
             # The truth takes a hundred microseconds; a picture asks for millions of films.
-            self._methods[slot] = TabulatedFilm(method) if find_method(name).is_truth else method
+            of_film = TabulatedFilm(method) if find_method(name).is_truth else method
+            self._methods[slot] = in_one_direction(of_film)
         return FilmOn(surface, film_ior, self._methods[slot])

@@ -24,7 +24,7 @@ class PaintedFilm:
         self.undefined = undefined
         self.films = []
 
-    def __call__(self, film) -> Evaluation:
+    def __call__(self, film, sight) -> Evaluation:
         self.films.append(film)
         cases = {case: np.ones(film.shape, np.bool_) for case in self.undefined}
         return Evaluation(np.broadcast_to(self.colour, (*film.shape, 3)), "painted", "none", undefined=cases)

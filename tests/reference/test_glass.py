@@ -23,7 +23,7 @@ from gltf_iri.material.transmission import Transmission
 from gltf_iri.material.volume import Volume
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.reference.environment_map import EnvironmentMap
-from gltf_iri.reference.film_on import FilmOn
+from gltf_iri.reference.film_on import FilmOn, in_one_direction
 from gltf_iri.reference.glass import Scenery, Traced, trace_glass
 from gltf_iri.reference.stage import build_stage
 from gltf_iri.reference.surface import Surface
@@ -64,7 +64,8 @@ def look(props: SimpleNamespace) -> Callable[..., Traced]:
 
         def film_on(slot: int, surface: Surface) -> FilmOn:
             film = stage.materials[slot].iridescence or Iridescence()
-            return FilmOn(surface, film.film_ior, partial(evaluate, stage.plans[slot].method or "khr"))
+            method = partial(evaluate, stage.plans[slot].method or "khr")
+            return FilmOn(surface, film.film_ior, in_one_direction(method))
 
         sky = EnvironmentMap(environment or white())
         scenery = Scenery(tracer, stage, sky, backdrop, (), film_on)

@@ -17,7 +17,7 @@ from gltf_iri.optics.sheen import sheen_albedo
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.environment_map import EnvironmentMap
-from gltf_iri.reference.film_on import FilmOn
+from gltf_iri.reference.film_on import FilmOn, in_one_direction
 from gltf_iri.reference.image_light import estimate, reflected
 from gltf_iri.reference.layers import fibre_lobe
 from gltf_iri.reference.lobes import evaluate_lobes
@@ -80,7 +80,7 @@ def _surface(n_dot_v: Any, roughness: float = 0.5, **changes: Any) -> Surface:
 
 
 def _film(surface: Surface, method: str = "khr-guarded", film_ior: float = 1.3) -> FilmOn:
-    return FilmOn(surface, film_ior, partial(evaluate, method))
+    return FilmOn(surface, film_ior, in_one_direction(partial(evaluate, method)))
 
 
 def _reflect(

@@ -60,7 +60,7 @@ def made(seed=0, **changes):
 
 def lit(surface, towards_light, *effects):
     plan = MaterialPlan(0, "", effects, None, "", "core")
-    film = FilmOn(surface, 1.3, lambda f: evaluate("khr-guarded", f))
+    film = FilmOn(surface, 1.3, lambda f, sight: evaluate("khr-guarded", f))
     return evaluate_lobes(surface, towards_light, film, plan)
 
 
