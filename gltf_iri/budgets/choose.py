@@ -106,10 +106,18 @@ def _tables(errors: FilmErrors, asked: Asked, floor: float) -> TableOffer:
     def fit(budget: float) -> Way | None:
         from gltf_iri.baking.resolution import filling_ns, fit_table
 
+        if budget <= floor:
+            return None
         tables = []
         for lobe in errors.lobes:
-            kinds = {"has_image_light": asked.has_image_light, "has_spread": asked.has_spread}
-            table = fit_table(reach, lobe, budget - floor, white=str(asked.white), **kinds)
+            table = fit_table(
+                reach,
+                lobe,
+                budget - floor,
+                white="D65" if asked.white == "D65" else "E",
+                has_image_light=asked.has_image_light,
+                has_spread=asked.has_spread,
+            )
             if table is None:
                 return None
             tables.append(table)
