@@ -91,9 +91,8 @@ def draw(renderer: Renderer, path: Path, environment: Environment) -> None:
     model = load(path)
     scene = model.scene()
     camera = choose_camera(scene, None, (8, 8))
-    renderer.render(
-        model, scene, plan_materials(model.materials), camera, environment, size=(8, 8), samples=0
-    )
+    plans = plan_materials(model.materials, document=model.document, scene=scene)
+    renderer.render(model, scene, plans, camera, environment, size=(8, 8), samples=0)
 
 
 def trial(path: Path, renderer: Renderer, environment: Environment | None) -> tuple[str, str]:

@@ -40,7 +40,7 @@ def walk(path: Path) -> tuple[list[str], str]:
         for index in range(len(document.json.get(key, []))):
             read(index)
     choose_camera(scene, None, (16, 16))
-    plans = [plan.to_json() for plan in plan_materials(model.materials)]
+    plans = [plan.to_json() for plan in plan_materials(model.materials, document=document, scene=scene)]
     notes = dict.fromkeys((*model.notes, *document.notes, *scene.notes))
     return list(notes), json.dumps(plans, ensure_ascii=False)
 

@@ -16,10 +16,13 @@ from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.material.specular import Specular
 from gltf_iri.material.texture import TextureInfo, TextureTransform
+from gltf_iri.planning.decide import plan_materials
+from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_reach import material_reach, vertex_colour_spans
 from gltf_iri.planning.reach import Span
 from gltf_iri.planning.texels import unread_images
 from gltf_iri.reference.texture import Texels, sample
+from gltf_iri.scene.load import load
 
 FILM = Iridescence(factor=0.5, thickness_min_nm=600.0, thickness_max_nm=100.0)
 PIXELS = arrays(np.uint8, st.tuples(st.integers(1, 4), st.integers(1, 4), st.just(4)))
@@ -204,3 +207,39 @@ def test_colours_of_vertices_are_gathered_over_all_primitives_of_a_material():
         1: (Span.at(1.0),) * 3,
         2: (Span(0.5, 1.0),) * 3,
     }
+
+
+LAMP_NM = {
+    "IridescenceLampTransmissionIridescence": (395.0, 404.7),
+    "IridescenceLampIridescence": (485.0, 514.1),
+}
+
+
+def test_real_films_meet_less_than_the_schema_allows(shared_dir):
+    folder = shared_dir / "assets" / "iridescence"
+    lamp = load(folder / "IridescenceLamp" / "glTF" / "IridescenceLamp.gltf")
+    met = {m.name: material_reach(m, lamp.document) for m in lamp.materials if m.iridescence}
+    for name, (low_nm, high_nm) in LAMP_NM.items():
+        assert (met[name].thickness_nm.low, met[name].thickness_nm.high) == pytest.approx(
+            (low_nm, high_nm), abs=0.1
+        )
+        assert met[name].roughness.high < 1.0
+        assert met[name].is_dielectric_grey and not met[name].is_metal_grey
+    suzanne = load(folder / "IridescenceSuzanne" / "glTF" / "IridescenceSuzanne.gltf")
+    reaches = [material_reach(m, suzanne.document) for m in suzanne.materials]
+    assert [reach.metallic for reach in reaches] == [Span.at(0.0), Span.at(1.0), Span.at(0.0)]
+    assert (reaches[2].thickness_nm.low, reaches[2].thickness_nm.high) == pytest.approx(
+        (242.4, 568.6), abs=0.1
+    )
+
+
+def test_metallic_spheres_of_index_1_have_no_film(shared_dir):
+    path = shared_dir / "assets" / "iridescence" / "IridescenceMetallicSpheres" / "glTF"
+    model = load(path / "IridescenceMetallicSpheres.gltf")
+    plans = plan_materials(model.materials, document=model.document)
+    films = [(plan, m.iridescence) for plan, m in zip(plans, model.materials, strict=True) if m.iridescence]
+    assert len(films) == 343
+    for plan, film in films:
+        assert (plan.method is None) == (film.film_ior == 1.0)
+        assert not plan.calls_for(Effect.DIELECTRIC)
+        assert plan.grey <= {"metal"}
