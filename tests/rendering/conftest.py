@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from gltf_iri.asset.texture import Texture
 from gltf_iri.material.material import Material
 from gltf_iri.planning.decide import plan_materials
+from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.rendering.frame import Frame
 from gltf_iri.rendering.render import Renderer
 from gltf_iri.scene.environment import white
@@ -101,13 +102,14 @@ class Stage:
         seen_from: Camera | None = None,
         size: tuple[int, int] = (64, 64),
         method: str | None = None,
+        plans: Sequence[MaterialPlan] | None = None,
         **options: Any,
     ) -> Frame:
         primitives = [primitives] if isinstance(primitives, Primitive) else primitives
         materials = [materials] if isinstance(materials, Material) else materials
         model = Model(Path("stage"), images or Images(), tuple(materials), ())  # type: ignore[arg-type]
         scene = Scene("", tuple(primitives), (), tuple(lights))
-        plans = plan_materials(materials, method=method)
+        plans = plan_materials(materials, method=method) if plans is None else plans
         view = seen_from or camera(half_height=1.0)
         return self.renderer.render(model, scene, plans, view, environment, size=size, **options)
 
