@@ -21,12 +21,14 @@ __all__ = [
     "GLSL_OPTICS_MAX_ABS",
     "GLSL_PIXEL_RELATIVE",
     "GLSL_PIXEL_ROUGHNESS_MIN",
+    "GLSL_SPREAD_MAX_ABS",
     "REFERENCE_DEPTH_RELATIVE",
     "REFERENCE_EDGE_PX",
     "REFERENCE_STEP_PX",
     "SPECTRAL_COLOUR_MAX_ABS",
     "SPECTRAL_REFLECTANCE_MAX_ABS",
     "SPECTRAL_VERSUS_TMM_MAX_ABS",
+    "SPREAD_TABLE_ERROR",
 ]
 
 # Truth refines its wavelength nodes until no channel moves by more: far below what 8 bits or an eye resolve,
@@ -43,6 +45,11 @@ SPECTRAL_VERSUS_TMM_MAX_ABS: Final = 1e-12
 # float32 GLSL against float64 Python on equal float32 inputs: phases reach some hundred radians, of which
 # float32 keeps 1e-5; the sensitivities' Gaussians damp them first.
 GLSL_OPTICS_MAX_ABS: Final = 5e-6
+
+# Sensitivities under a spread of path differences, between the 26 spreads that are tabulated: 9e-5 of white
+# at worst, half way between two of them. A film's fringes are never half as strong as all of its light.
+SPREAD_TABLE_ERROR: Final = 1e-4
+GLSL_SPREAD_MAX_ABS: Final = 5e-5
 
 # A mirror's colour by the same rule in both: at one wavelength float32 errs by what a step of the wavelength
 # does, up to 1e-4 at the narrow fringes of ten cells; over the spectrum such errors take turns in sign.

@@ -60,7 +60,8 @@ def _sum_series(band: FilmBand, thickness_std_nm: Float64, white: White, toleran
     table = sensitivity_table(white)
     series = film_series(band.outside_ior, band.film_ior, band.base_index, band.cos_theta_1)
     path = 2.0 * np.sqrt(np.maximum(series.q2_squared, 0.0))
-    is_open = ~(series.q2_squared > 0.0) | ~(path * band.thickness_nm > THIN_OPD_NM)
+    widest = np.maximum(band.thickness_nm, thickness_std_nm)
+    is_open = ~(series.q2_squared > 0.0) | ~(path * widest > THIN_OPD_NM)
     rgb = np.repeat((1.0 - (series.entering[0] + series.entering[1]))[:, None], 3, axis=-1)
     opd_nm, std_nm = path * band.thickness_nm, path * thickness_std_nm
 

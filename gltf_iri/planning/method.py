@@ -68,6 +68,9 @@ class Method:
     parameters: tuple[Parameter, ...] = ()  # keyword arguments of its evaluator
     backends: tuple[Backend, ...] = ("numpy",)  # with more than one, its evaluator takes `backend`
     glsl_tables: tuple[str, ...] = ()  # the samplers that its twin reads (rendering/optics_tables.py)
+    # The twin that averages over a Gaussian spread of thickness, and what it reads; None where there is none
+    glsl_spread_function: str | None = None
+    glsl_spread_tables: tuple[str, ...] = ()
 
     @property
     def define(self) -> str:
@@ -154,6 +157,8 @@ _FILM_METHODS = (
         ),
         backends=("numpy", "numba"),
         glsl_tables=("film_sensitivity", "spectral_rule"),
+        glsl_spread_function="iridescent_fresnel_fourier_spread",
+        glsl_spread_tables=("film_sensitivity_spread", "spectral_rule"),
     ),
     Method(
         "spectral-grid",

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from gltf_iri.colour import damped_sensitivity as damped
 from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM
 from gltf_iri.colour.sensitivity import GAUSSIANS, SENSITIVITY_WHITE, Gaussian
 from gltf_iri.colour.sensitivity_table import END_NM
 from gltf_iri.colour.spaces import XYZ_TO_REC709
 from gltf_iri.evaluation import fourier, khr, khr_guarded
 from gltf_iri.optics import granier_heidrich, landmarks, layering, microfacet, sheen
-from gltf_iri.rendering import environment_light, optics_tables
+from gltf_iri.rendering import environment_light, optics_tables, spread_table
 from gltf_iri.scene import light
 
 __all__ = ["constants_glsl", "film_constants_glsl", "glsl_float", "layer_constants_glsl"]
@@ -80,6 +81,23 @@ def film_constants_glsl() -> str:
             f"const int SENSITIVITY_ROW_BITS = {optics_tables.SENSITIVITY_ROW_BITS};",
             f"const int SENSITIVITY_ROWS = {optics_tables.SENSITIVITY_ROWS};",
             f"const int SPECTRAL_SMOOTH_COUNT = {optics_tables.SPECTRAL_SMOOTH_DEGREE + 1};",
+        ],
+        [
+            "// gltf_iri/rendering/spread_table.py, and gltf_iri/colour/damped_sensitivity.py",
+            _scalar("SPREAD_FINE_END_NM", spread_table.SPREAD_FINE_END_NM),
+            _scalar("SPREAD_FAR_PER_NM", spread_table.SPREAD_FAR_PER_NM),
+            _scalar("SPREAD_LAST", spread_table.SPREAD_LAST),
+            _scalar("SPREAD_UNIT", spread_table.SPREAD_VALUE_MAX / 2.0**31),
+            _scalar("SPREAD_SLOPE_UNIT", spread_table.SPREAD_SLOPE_MAX / 2.0**31),
+            f"const uint SPREAD_SLOPE_SHIFT = {32 - spread_table.SPREAD_SLOPE_BITS}u;",
+            f"const int SPREAD_ROW = {spread_table.SPREAD_ROW};",
+            f"const int SPREAD_ROW_BITS = {spread_table.SPREAD_ROW_BITS};",
+            f"const int SPREAD_ROWS = {spread_table.SPREAD_ROWS};",
+            f"const int SPREADS = {damped.SPREADS};",
+            _scalar("SPREAD_SQUARED_MAX", damped.SPREAD_END_NM**2),
+            _scalar("SPREAD_SQUARED_SCALE", damped.SPREAD_SCALE_NM**2),
+            _scalar("SPREAD_PART_MAX", damped.SPREAD_PART_MAX),
+            f"const vec3 DAMPING_PER_NM2 = {_vec3(damped.DAMPING_PER_NM2)};",
         ],
         [
             "// gltf_iri/optics/granier_heidrich.py",

@@ -22,6 +22,8 @@ from gltf_iri.errors import MissingCapabilityError, UsageError
 from gltf_iri.evaluation.bloch import bloch_table
 from gltf_iri.evaluation.landmarks import cumulative_table
 from gltf_iri.planning.method import ParameterValue
+from gltf_iri.rendering.line_words import line_words
+from gltf_iri.rendering.spread_table import film_sensitivity_spread
 
 if TYPE_CHECKING:
     import moderngl
@@ -116,19 +118,20 @@ def _film_sensitivity(white: White, tolerance: float = 1.0, **parameters: Parame
 
 
 def _words(values: NDArray[np.float64]) -> UInt32:
-    """Return (n, 3): the lines through `values` (n, 3 places, 3 channels) that err least between them."""
-    begin, middle, end = values[:, 0], values[:, 1], values[:, 2]
-    low = 1 << SENSITIVITY_SLOPE_BITS
-    slope = np.rint((end - begin) * (0.5 * low / SENSITIVITY_SLOPE_MAX)).astype(np.int64) & (low - 1)
-    whole = (begin + 2.0 * middle + end) * (0.25 * 2.0**31 / SENSITIVITY_MAX)
-    value = np.rint((whole - slope) / low).astype(np.int64)
-    return (value * low + slope).astype(np.uint32)
+    """Return (n, 3): the lines through `values` (n, 3 places, 3 channels)."""
+    return line_words(
+        *np.moveaxis(values, 1, 0),
+        value_max=SENSITIVITY_MAX,
+        slope_max=SENSITIVITY_SLOPE_MAX,
+        slope_bits=SENSITIVITY_SLOPE_BITS,
+    )
 
 
 OPTICS_TABLES: Final[Mapping[str, TableFill]] = MappingProxyType(
     {
         "spectral_rule": _spectral_rule,
         "film_sensitivity": _film_sensitivity,
+        "film_sensitivity_spread": film_sensitivity_spread,
         "cumulative_colour": cumulative_table,
         "bloch_weights": bloch_table,
     }

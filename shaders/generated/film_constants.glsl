@@ -39,6 +39,22 @@ const int SENSITIVITY_ROW_BITS = 10;
 const int SENSITIVITY_ROWS = 75;
 const int SPECTRAL_SMOOTH_COUNT = 33;
 
+// gltf_iri/rendering/spread_table.py, and gltf_iri/colour/damped_sensitivity.py
+const float SPREAD_FINE_END_NM = 4096.5;
+const float SPREAD_FAR_PER_NM = 0.25;
+const float SPREAD_LAST = 19073.0;
+const float SPREAD_UNIT = 7.4505806e-10;
+const float SPREAD_SLOPE_UNIT = 8.38190317e-12;
+const uint SPREAD_SLOPE_SHIFT = 20u;
+const int SPREAD_ROW = 1024;
+const int SPREAD_ROW_BITS = 10;
+const int SPREAD_ROWS = 19;
+const int SPREADS = 26;
+const float SPREAD_SQUARED_MAX = 230400.0;
+const float SPREAD_SQUARED_SCALE = 42025.0;
+const float SPREAD_PART_MAX = 0.845737359;
+const vec3 DAMPING_PER_NM2 = vec3(5.48311356e-05, 6.64563885e-05, 9.53469813e-05);
+
 // gltf_iri/optics/granier_heidrich.py
 const vec3 LAYER_WAVELENGTHS_NM = vec3(645.0, 525.0, 445.0);
 

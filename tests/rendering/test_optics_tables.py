@@ -26,7 +26,8 @@ from gltf_iri.rendering.optics_tables import (
 
 
 def test_every_table_of_a_method_is_filled_and_every_filled_one_used() -> None:
-    assert {name for method in METHODS.values() for name in method.glsl_tables} == set(OPTICS_TABLES)
+    read = {name for method in METHODS.values() for name in (*method.glsl_tables, *method.glsl_spread_tables)}
+    assert read == set(OPTICS_TABLES)
 
 
 @pytest.mark.parametrize("name", OPTICS_TABLES)
