@@ -17,7 +17,7 @@ from gltf_iri.budgets.candidates import (
 from gltf_iri.budgets.errors import FilmErrors, Measured
 from gltf_iri.budgets.samples import base_spans
 from gltf_iri.budgets.search import Chosen, TableOffer, cheapest_way, check_budget, figure, the_truth
-from gltf_iri.colour.spaces import Light
+from gltf_iri.colour.spaces import WHITES, Light
 from gltf_iri.planning.costs import Device
 from gltf_iri.planning.film_table import FilmTable, Lobe, TableAxis
 from gltf_iri.planning.method import METHODS
@@ -40,6 +40,7 @@ class Asked:
     bare_at_grazing : what its dielectric without the film reflects at grazing angles, its specular weight;
         None where that differs from place to place.
     is_film_needed : the film's own colour is wanted, so that it is never left out.
+    has_tables : whether tables are an answer.
     has_spread : tables should average over the thickness within a pixel, too.
     """
 
@@ -50,6 +51,7 @@ class Asked:
     has_image_light: bool = False
     bare_at_grazing: float | None = 1.0
     is_film_needed: bool = False
+    has_tables: bool = True
     has_spread: bool = False
 
 
@@ -80,7 +82,7 @@ def choose_way(reach: Reach, asked: Asked, subject: str) -> Chosen:
             return errors.without_film(allowed)
         return errors.of_method(candidate.method, candidate.parameters, allowed, floor=floor)
 
-    tables = _tables(errors, asked, floor) if asked.white in ("D65", "E") else None
+    tables = _tables(errors, asked, floor) if asked.has_tables and asked.white in WHITES else None
     chosen = cheapest_way(candidates, measure, budget, asked.colours, subject=subject, tables=tables)
     if chosen.way.method is None:
         return Chosen(chosen.way, _without_film(reach, chosen.way))

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from gltf_iri.cli.common import note
+
 if TYPE_CHECKING:
     from gltf_iri.baking.baked import BakedTable
     from gltf_iri.planning.costs import Device
@@ -79,12 +81,17 @@ def plan_scene(
 def baked_tables(
     plans: Sequence[MaterialPlan], white: str = "D65", advance: Callable[[], None] = lambda: None
 ) -> Mapping[int, Mapping[Lobe, BakedTable]]:
-    """Return the filled tables of `plans`; without any, the machinery that fills them is not loaded."""
+    """Return the filled tables of `plans`, from the cache where they lie there; what ails it is noted."""
     if not any(plan.way is not None and plan.way.tables for plan in plans):
         return {}
+    from gltf_iri.baking.cache import TableCache
     from gltf_iri.baking.fill import bake_plans
 
-    return bake_plans(plans, white, advance=advance)
+    cache = TableCache()
+    tables = bake_plans(plans, white, cache=cache, advance=advance)
+    for text in cache.notes:
+        note(text)
+    return tables
 
 
 def way_rows(plan: MaterialPlan) -> list[tuple[str, str]]:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from gltf_iri.cli.budget import budget_option, check_choice, plan_scene
+from gltf_iri.cli.budget import baked_tables, budget_option, check_choice, plan_scene
 from gltf_iri.cli.common import (
     file_argument,
     json_option,
@@ -97,7 +97,7 @@ def command(
     model = load(file)
     scene = model.scene()
     plans = plan_scene(model, scene, method, budget, size=size, environment=environment, white=white)
-
+    tables = baked_tables(plans, white)
     view = choose_camera(scene, camera, size)
     folder = Path(f"{file.stem}-compared" if out is None else out)
     # matplotlib warns where there is no home to keep its fonts' list in; the figures are the same.
@@ -112,7 +112,7 @@ def command(
         }
         # First, for it may lack a package.
         held = against_reference(*arguments, **{**shown, **counts}) if reference else None
-        comparison = replace(compare(*arguments, **shown, white=white), reference=held)
+        comparison = replace(compare(*arguments, **shown, white=white, tables=tables), reference=held)
         if not comparison.materials:
             comparison = replace(comparison, notes=(*comparison.notes, EMPTY_PICTURE))
         files = write_report(comparison, folder)

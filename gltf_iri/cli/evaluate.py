@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gltf_iri.backends import BACKENDS
+from gltf_iri.cli.budget import budget_option, check_choice
 from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
 from gltf_iri.cli.evaluate_array import DEFAULT_COLUMNS, array_to_array
 from gltf_iri.cli.evaluate_subject import (
@@ -87,6 +88,7 @@ def _allowed(parameter: Parameter) -> str:
     metavar="NAME",
     help=f"One of {', '.join(METHODS)} [{DEFAULT_METHOD}; for mirrors {DEFAULT_MIRROR_METHOD}].",
 )
+@budget_option
 @click.option(
     "--set",
     "settings",
@@ -120,6 +122,7 @@ def command(
     material: str | None,
     cosines: tuple[float, ...],
     method: str | None,
+    budget: float | None,
     white: str,
     source: Path | None,
     out: Path | None,
@@ -139,12 +142,13 @@ def command(
     parameters = dict(settings)
     if len(parameters) < len(settings):
         raise click.UsageError("--set names a parameter twice; give each once")
-    how = How(method, white, backend, parameters)
+    check_choice(budget, method=method, set=settings)
+    how = How(method, white, backend, parameters, budget)
     if source is not None:
         if layered or click.get_current_context().get_parameter_source("cosines") is not _BY_DEFAULT:
             raise click.UsageError("--in has its cosines in a column, and no --layered")
         names = DEFAULT_COLUMNS if columns is None else tuple(name.strip() for name in columns.split(","))
-        array_to_array(source, out, names, file, material, how, None, subject, as_json=as_json)
+        array_to_array(source, out, names, file, material, how, budget, subject, as_json=as_json)
         return
     if out is not None or columns is not None:
         raise click.UsageError("--out and --columns need --in, a .npy file of films")
@@ -172,7 +176,8 @@ def _print(result: dict[str, Any]) -> None:
         for row, specular, weight in zip(rows, result["specular"], result["base_weight"], strict=True):
             row += [*(f"{v:.6f}" for v in specular), f"{weight:.6f}"]
     method = ", ".join(filter(None, (result["method"], parameters_text(result["parameters"]))))
-    title = f"{method}, by {result['backend']}, {result['white']} white, linear Rec.709"
+    kept = f", ΔE ≤ {result['delta_e']:.2g}" if "delta_e" in result else ""
+    title = f"{method}{kept}, by {result['backend']}, {result['white']} white, linear Rec.709"
     if "material" in result:
         label = material_label(result["index"], result["material"])
         low_nm, high_nm = result["thickness_range_nm"]

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from gltf_iri.backends import choose_backend
 from gltf_iri.cli.common import material_label
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.planning.way import Way
 
 if TYPE_CHECKING:
     from gltf_iri.evaluation.film import Evaluation
@@ -34,12 +36,13 @@ _LISTED_MAX = 8  # materials that an error names; `plan` lists them all
 
 @dataclass(frozen=True, slots=True)
 class How:
-    """By which method, under which white, and by what."""
+    """By which method, or within which budget, under which white, and by what."""
 
     method: str | None
     white: str
     backend: str
     parameters: dict[str, str]
+    budget: float | None = None
 
 
 def from_mirror(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> dict[str, Any]:
@@ -57,6 +60,7 @@ def from_mirror(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> 
         white=how.white,
         backend=how.backend,
         parameters=how.parameters,
+        budget=how.budget,
     )
     return _result(cosines, evaluation)
 
@@ -87,6 +91,7 @@ def from_parameters(cosines: tuple[float, ...], how: How, given: dict[str, Any])
         white=how.white,
         backend=how.backend,
         parameters=how.parameters,
+        budget=how.budget,
     )
     return _result(cosines, evaluation)
 
@@ -110,6 +115,10 @@ def from_file(
     materials = load(file).materials
     index = chosen_material(materials, name, file)
     plan = plan_material(materials[index], index, method=how.method)
+    way = None
+    if how.budget is not None and plan.method is not None:
+        way = _way_of(materials[index], index, len(cosines), how, given["thickness"])
+        plan = replace(plan, method=way.method)
     done = evaluate_material(
         materials[index],
         plan,
@@ -117,15 +126,31 @@ def from_file(
         thickness_nm=given["thickness"],
         white=how.white,
         backend=how.backend,
-        parameters=how.parameters,
+        parameters=how.parameters if way is None else way.parameters,
     )
-    result = _result(cosines, done.film)
+    film = done.film if way is None else replace(done.film, delta_e=way.delta_e)
+    result = _result(cosines, film)
     result |= {"material": plan.name, "index": index, "thickness_nm": done.thickness_nm}
     result |= {"thickness_range_nm": done.thickness_range_nm, "factor": done.factor}
     result["textures_left_out"] = [e.value for e in plan.effects if e.value in _TEXTURES_OF_THE_BASE]
     if layered:
         result |= {"specular": done.layer.specular, "base_weight": done.layer.base_weight}
     return result
+
+
+def _way_of(material: Material, index: int, count: int, how: How, thickness_nm: float | None) -> Way:
+    """Return the cheapest method within the budget, at all angles, for the material without its textures."""
+    from gltf_iri.budgets.array_films import films_of_material, reach_of_films
+    from gltf_iri.budgets.choose import Asked, choose_way
+    from gltf_iri.errors import UsageError
+
+    label = f"material '{material_label(index, material.name)}'"
+    reach = reach_of_films(films_of_material(material, index, ("cos",), thickness_nm), {})
+    device = choose_backend(how.backend, count, ("numpy", "numba"), "budget")
+    asked = Asked(how.budget or 0.0, count, device, how.white, is_film_needed=True, has_tables=False)
+    if reach is None:
+        raise UsageError(f"A budget does not know what lies under the film of {label}; name a --method.")
+    return choose_way(reach, asked, label).way
 
 
 def chosen_material(materials: tuple[Material, ...], name: str | None, file: Path) -> int:
@@ -154,7 +179,11 @@ def chosen_material(materials: tuple[Material, ...], name: str | None, file: Pat
 
 
 def _result(cosines: tuple[float, ...], evaluation: Evaluation) -> dict[str, Any]:
-    return {
+    chosen = {}
+    if evaluation.delta_e is not None:
+        label = Way(evaluation.method, evaluation.parameters).label
+        chosen = {"way": label, "delta_e": evaluation.delta_e}
+    return chosen | {
         "method": evaluation.method,
         "white": evaluation.white,
         "cos": cosines,
