@@ -102,5 +102,5 @@ def test_sharp_textures_show_the_texel_at_the_pixels_centre_alone(stage, props):
 def test_a_shader_without_the_spread_holds_no_word_of_it():
     for method, is_there in (("fourier", True), ("khr-guarded", False)):
         _, fragment = surface_sources(permutation(plan_material(filmed(0), 0, method=method), (), ()))
-        for word in ("s.iridescence_thickness_std_nm", "thickness_in_pixel", "texture_footprint", "MOMENTS"):
+        for word in ("s.iridescence_thickness_std_nm", "thickness_in_pixel", "MOMENTS", "fourier_spread"):
             assert (word in fragment.text) == is_there
