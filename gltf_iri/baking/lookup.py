@@ -111,23 +111,26 @@ def _compiled(table: FilmTable, texels: NDArray[np.floating[Any]], values: list[
     """Return the same as `_interpolated`."""
     from gltf_iri.compiled.table import AXES_MAX, look_up_rows
 
-    rules = np.zeros((AXES_MAX, 4))
-    base, step = -1, 3
-    for k, axis in reversed(list(enumerate(table.axes))):
+    lows, scales, cells = np.zeros(AXES_MAX), np.zeros(AXES_MAX), np.zeros(AXES_MAX)
+    steps = np.zeros(AXES_MAX, dtype=np.int64)
+    columns = [np.zeros(1)] * AXES_MAX
+    has_base = table.axis("base_f0") is not None
+    # Colours come last.
+    slot, step = len(values) - 1 - has_base, 3
+    for axis, value in reversed(list(zip(table.axes, values, strict=True))):
+        k = AXES_MAX - 1 if axis.quantity == "base_f0" else slot
+        slot -= k == slot
         low, high = _ends(axis)
-        base = k if axis.quantity == "base_f0" else base
-        # An axis of one value has one texel: its next is itself.
-        is_single = axis.nodes == 1 or low == high
-        scale = 0.0 if is_single else (axis.nodes - 1.0) / (high - low)
-        rules[k] = low, scale, axis.nodes - 1.0, 0 if axis.nodes == 1 else step
+        lows[k], cells[k] = low, axis.nodes - 1
+        scales[k] = (axis.nodes - 1) / (high - low) if high > low else 0.0
+        # The only texel of an axis is its own next one.
+        steps[k] = step if axis.nodes > 1 else 0
+        columns[k] = np.ascontiguousarray(value).reshape(-1)
         step *= axis.nodes
-    unused = [np.zeros(1)] * (AXES_MAX - len(values))
-    first, second, third, fourth = [np.ascontiguousarray(each).reshape(-1) for each in values] + unused
     flat = np.ascontiguousarray(texels, dtype=np.float32).reshape(-1)
     rgb = np.zeros((len(values[0]), 3))
-    look_up_rows(
-        len(table.axes), base, rules.reshape(-1), flat, first, second, third, fourth, rgb.reshape(-1)
-    )
+    rule = (len(values) - has_base, has_base, lows, scales, cells, steps)
+    look_up_rows(*rule, flat, columns[0], columns[1], columns[2], columns[3], rgb.reshape(-1))
     return rgb
 
 
