@@ -2,17 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Final
-
 from gltf_iri.planning.method import Method
 from gltf_iri.planning.reach import Reach
 from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict
 from gltf_iri.planning.way import Way
 
-__all__ = ["AVERAGES_THICKNESS", "spread_verdict"]
-
-# Methods that have a closed form for the mean over a Gaussian of thicknesses.
-AVERAGES_THICKNESS: Final = frozenset({"fourier"})
+__all__ = ["spread_verdict"]
 
 
 def spread_verdict(texture: Verdict, method: Method, reach: Reach | None, way: Way | None) -> Verdict:
@@ -31,6 +26,6 @@ def spread_verdict(texture: Verdict, method: Method, reach: Reach | None, way: W
         if any(table.axis("spread_nm") for table in way.tables):
             return None
         return Skip("the table has no axis for it: it draws the mean thickness' colour")
-    if method.name not in AVERAGES_THICKNESS:
+    if method.glsl_spread_function is None:
         return Skip(f"{method.name} cannot average over thickness: it draws the mean thickness' colour")
     return None

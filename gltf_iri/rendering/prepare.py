@@ -110,5 +110,7 @@ def prepare_draws(
             sampled |= film_tables.textures(plan)
         method = computed_method(plan)
         if method is not None:
-            sampled |= tables.textures(method.glsl_tables, white, film_parameters(plan))
+            has_spread = plan.calls_for(Effect.IRIDESCENCE_THICKNESS_SPREAD) and method.glsl_spread_function
+            names = method.glsl_spread_tables if has_spread else method.glsl_tables
+            sampled |= tables.textures(names, white, film_parameters(plan))
         yield Draw(primitive, plan, shaders, {**uniforms, **own}, {**light, **sampled})

@@ -4,6 +4,12 @@
 #include "lighting/lobe.glsl"
 #include "material/surface.glsl"
 
+#if defined(METHOD_FOURIER) && defined(HAS_IRIDESCENCE_THICKNESS_SPREAD)
+#define FILM_THICKNESS(s) s.iridescence_thickness_nm, s.iridescence_thickness_std_nm
+#else
+#define FILM_THICKNESS(s) s.iridescence_thickness_nm
+#endif
+
 #ifdef METHOD_KHR
 #include "optics/khr.glsl"
 #define FILM_FRESNEL iridescent_fresnel_khr
@@ -13,8 +19,13 @@
 #define FILM_FRESNEL iridescent_fresnel_khr_guarded
 #endif
 #ifdef METHOD_FOURIER
+#ifdef HAS_IRIDESCENCE_THICKNESS_SPREAD
+#include "optics/fourier_spread.glsl"
+#define FILM_FRESNEL iridescent_fresnel_fourier_spread
+#else
 #include "optics/fourier.glsl"
 #define FILM_FRESNEL iridescent_fresnel_fourier
+#endif
 #endif
 #ifdef METHOD_SPECTRAL
 #include "optics/spectral.glsl"
@@ -39,7 +50,7 @@ vec3 film_over_dielectric(Surface s, Lobe lobe) {
 #ifdef DIELECTRIC_TABLE
     return dielectric_table(s, base_f0, lobe);
 #else
-    return FILM_FRESNEL(1.0, s.film_ior, base_f0, s.iridescence_thickness_nm, lobe.facet_cosine);
+    return FILM_FRESNEL(1.0, s.film_ior, base_f0, FILM_THICKNESS(s), lobe.facet_cosine);
 #endif
 }
 #endif
@@ -49,7 +60,7 @@ vec3 film_over_metal(Surface s, Lobe lobe) {
 #ifdef METAL_TABLE
     return metal_table(s, s.base_color, lobe);
 #else
-    return FILM_FRESNEL(1.0, s.film_ior, s.base_color, s.iridescence_thickness_nm, lobe.facet_cosine);
+    return FILM_FRESNEL(1.0, s.film_ior, s.base_color, FILM_THICKNESS(s), lobe.facet_cosine);
 #endif
 }
 #endif

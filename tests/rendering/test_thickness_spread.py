@@ -11,6 +11,7 @@ from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.material.texture import TextureInfo
 from gltf_iri.planning.decide import plan_material
+from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.permutation import permutation
 from gltf_iri.rendering.programs import surface_sources
 
@@ -18,6 +19,7 @@ LINEAR, LINEAR_MIPMAP_LINEAR, NEAREST = 9729, 9987, 9728
 CLAMP = 33071
 FILM = Iridescence(1.0, thickness_min_nm=900.0, thickness_max_nm=400.0)  # turned around: the range is 500 nm
 RANGE_NM = 500.0
+LIT = (Effect.PUNCTUAL_LIGHTS,)
 
 
 def filmed(texture: int) -> Material:
@@ -101,6 +103,6 @@ def test_sharp_textures_show_the_texel_at_the_pixels_centre_alone(stage, props):
 
 def test_a_shader_without_the_spread_holds_no_word_of_it():
     for method, is_there in (("fourier", True), ("khr-guarded", False)):
-        _, fragment = surface_sources(permutation(plan_material(filmed(0), 0, method=method), (), ()))
+        _, fragment = surface_sources(permutation(plan_material(filmed(0), 0, method=method), (), LIT))
         for word in ("s.iridescence_thickness_std_nm", "thickness_in_pixel", "MOMENTS", "fourier_spread"):
             assert (word in fragment.text) == is_there
