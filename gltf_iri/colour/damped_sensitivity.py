@@ -54,7 +54,7 @@ def spreads_nm() -> Float64:
 def damped_sensitivity(white: White) -> tuple[Float64, Float64]:
     """Return D (n,) from 0 to the table's end, half nanometres apart, and Re Ŝ(D, s) (SPREADS, n, 3)."""
     count = round(END_NM / _STEP_NM) + 1
-    opd_nm = _STEP_NM * np.arange(count)
+    opd_nm = np.asarray(_STEP_NM * np.arange(count), dtype=np.float64)
     real = np.zeros((3, _LENGTH + 1))
     real[:, :count] = sensitivity_table(white).at(opd_nm).real.T
     # Re Ŝ is even in D: so continued, its transform is real, and so is what comes back.

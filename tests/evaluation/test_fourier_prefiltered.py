@@ -69,3 +69,13 @@ def test_films_without_a_series_are_averaged_too() -> None:
     )
     truth = averaged(film, 1.0, lambda f: evaluate_spectral(f, "D65").rgb)
     assert np.abs(prefiltered_fourier(film, 1.0, "D65") - truth).max() <= 1e-7
+
+
+def test_spread_wider_than_the_film_is_the_average_over_what_lies_above() -> None:
+    """A film of half a fringe, spread over three: real bases look the same from below thickness 0."""
+    film = Film.of(np.array([0.2, 0.9]), 60.0, 1.6, base_from_ior(np.array([1.9, 2.4])))
+    steps = np.linspace(-6.0, 6.0, 601)
+    weights = np.exp(-0.5 * steps**2) / np.exp(-0.5 * steps**2).sum()
+    around = Film.of(film.cos_theta_1, np.abs(60.0 + 200.0 * steps)[:, None], film.film_ior, film.base)
+    truth = np.einsum("k,krc->rc", weights, evaluate_spectral(around, "D65").rgb)
+    assert np.abs(prefiltered_fourier(film, 200.0, "D65", 1e-7) - truth).max() <= 2e-6
