@@ -16,6 +16,7 @@ from gltf_iri.bench.accuracy_row import AccuracyRow, Errors
 from gltf_iri.bench.accuracy_sets import ACCURACY_SETS
 from gltf_iri.bench.accuracy_tables import Tables, film_tables, look_ups, set_parts
 from gltf_iri.bench.film_parts import FilmPart, film_of, points_of
+from gltf_iri.bench.mirror_tables import mirror_tables
 from gltf_iri.bench.real_materials import SAMPLES, file_parts, sample_parts, set_names
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film
@@ -57,20 +58,20 @@ def subjects(files: Sequence[Path] = ()) -> Mapping[str, Callable[[], Subject]]:
 
 
 def measure_set(
-    workload: str, subject: Subject, context: moderngl.Context | None, hurry: float = 1.0
+    workload: str, subject: Subject, context: moderngl.Context | None, rounds: int | None = None
 ) -> list[AccuracyRow]:
     """Return the rows of one set on numpy, compiled where numba is installed, and in OpenGL with a context.
 
-    hurry : by how much its timing is to be shorter than usual.
+    rounds : of the timings; None for as many as some seconds allow.
     """
     truth = true_colours(subject.colours)
     tables = list(_tables(workload, subject))
     entries = list(method_entries(subject.colours, truth))
     for each in tables:
         entries += table_entries(each)
-    rows = [_truth_row(workload, truth), *measured(workload, entries, _PYTHON_S / hurry)]
+    rows = [_truth_row(workload, truth), *measured(workload, entries, _PYTHON_S, rounds)]
     if context is not None:
-        rows += glsl_rows(context, workload, subject.colours, truth.rgb, tables, _GLSL_S / hurry)
+        rows += glsl_rows(context, workload, subject.colours, truth.rgb, tables, _GLSL_S, rounds)
     return rows
 
 
@@ -98,7 +99,7 @@ def _real(parts: list[FilmPart], what: str) -> Subject:
 def _tables(workload: str, subject: Subject) -> list[Tables]:
     colours = subject.colours
     if isinstance(colours, Mirror):
-        return []
+        return list(mirror_tables(colours))
     tables = [each for parts in subject.parts for each in film_tables(parts)]
     lobe = subject.parts[0][0].lobe
     return [*tables, *look_ups(colours, lobe)] if workload in ACCURACY_SETS else tables

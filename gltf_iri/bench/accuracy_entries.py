@@ -117,11 +117,13 @@ def table_entries(tables: Tables) -> Iterator[Entry]:
         )
 
 
-def measured(workload: str, entries: Sequence[Entry], limit_s: float) -> list[AccuracyRow]:
-    """Return the rows of `entries`, timed in turn, for about `limit_s` seconds and at least two rounds."""
+def measured(
+    workload: str, entries: Sequence[Entry], limit_s: float, rounds: int | None = None
+) -> list[AccuracyRow]:
+    """Return the rows of `entries`, timed in turn: `rounds` times, else for about `limit_s` seconds."""
     round_s = sum(entry.first_s + _SHORTEST_S for entry in entries)
-    rounds = min(_MOST_ROUNDS, max(2, int(limit_s / round_s)))
-    times_ns = interleaved_ns([entry.run for entry in entries], rounds)
+    count = rounds or min(_MOST_ROUNDS, max(2, int(limit_s / round_s)))
+    times_ns = interleaved_ns([entry.run for entry in entries], count)
     return [
         AccuracyRow(
             workload,

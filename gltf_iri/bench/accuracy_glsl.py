@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Final
@@ -46,10 +47,12 @@ def glsl_rows(
     truth: NDArray[np.float64],
     tables: Sequence[Tables],
     limit_s: float,
+    rounds: int | None = None,
 ) -> list[AccuracyRow]:
     """Return a row for each twin with all its settings, and for each of `tables`, timed in turn.
 
-    truth : the true colours (n, 3) of `subject`. limit_s : about how long the timing lasts.
+    truth : the true colours (n, 3) of `subject`.
+    limit_s : about how long the timing lasts where `rounds` is None.
     """
     calls: list[TimedCall] = []
     rows: list[AccuracyRow] = []
@@ -58,11 +61,13 @@ def glsl_rows(
             calls.append(call)
             rows.append(row)
         for each in filter(lambda each: each.baked, tables):
-            calls.append(table_call(context, each.baked[0], film_of(each.points)))
+            at = np.concatenate(each.points) if isinstance(subject, Mirror) else film_of(each.points)
+            calls.append(table_call(context, each.baked[0], at))
             rows.append(_table_row(context, workload, each))
         calls.append(texture_call(context, calls[0]))
         rows.append(AccuracyRow(workload, "glsl", TEXTURE, TEXTURE, None, 0.0, None))
-        times = time_calls(context, calls, rounds=_ROUNDS, side=_SIDE, limit_s=limit_s)
+        limit_s = limit_s if rounds is None else math.inf
+        times = time_calls(context, calls, rounds=rounds or _ROUNDS, side=_SIDE, limit_s=limit_s)
     finally:
         for call in calls:
             _release(call)
@@ -87,19 +92,19 @@ def _twins(
 
 
 def _table_row(context: moderngl.Context, workload: str, tables: Tables) -> AccuracyRow:
-    colours = [
-        _looked_up(context, baked, film) for baked, film in zip(tables.baked, tables.points, strict=True)
-    ]
+    colours = [_looked_up(context, baked, at) for baked, at in zip(tables.baked, tables.points, strict=True)]
     errors = tables.errors(np.concatenate(colours))
     return AccuracyRow(
         workload, "glsl", tables.label, tables.way, None, 0.0, errors, filling_ns=tables.filling_ns
     )
 
 
-def _looked_up(context: moderngl.Context, baked: BakedTable, film: Film) -> NDArray[np.float32]:
-    call = table_call(context, baked, film)
+def _looked_up(
+    context: moderngl.Context, baked: BakedTable, at: Film | NDArray[np.float64]
+) -> NDArray[np.float32]:
+    call = table_call(context, baked, at)
     try:
-        return call_colours(context, call, len(film.cos_theta_1))
+        return call_colours(context, call, len(at.cos_theta_1 if isinstance(at, Film) else at))
     finally:
         _release(call)
 

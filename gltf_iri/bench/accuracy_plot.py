@@ -45,7 +45,7 @@ def plot_accuracy(workload: str, rows: Sequence[AccuracyRow], renderer: str | No
         title = _DEVICES[device] + (f": {renderer}" if device == "glsl" and renderer else "")
         axes.set_title(title, fontsize=9)
     figure.suptitle(
-        f"{workload}: time of a colour against its error; tables with their filling spread over {SHADINGS:,}",
+        f"{workload}: time against error; tables with their filling spread over {SHADINGS:,} shadings",
         fontsize=11,
     )
     return png_bytes(figure)
@@ -68,10 +68,17 @@ def _setting(row: AccuracyRow) -> str:
 
 
 def _panel(axes: Any, rows: Sequence[AccuracyRow], styles: Mapping[str, tuple[str, str]]) -> None:
+    from matplotlib.ticker import NullFormatter
+
     place = {row.label: (min(max(error_of(row), _FLOOR), _CEILING), row.ns) for row in rows}
     heights = [math.log10(ns) for _, ns in place.values()]
-    bottom, top = min(heights) - 0.25, max(heights) + 0.25
+    # At least two of the powers of ten that bear a number.
+    bottom, top = (
+        min(math.floor(min(heights)), min(heights) - 0.25),
+        max(math.ceil(max(heights)), max(heights) + 0.25),
+    )
     axes.set(xscale="log", yscale="log", xlim=(_FLOOR / 2.0, _CEILING * 1.5), ylim=(10.0**bottom, 10.0**top))
+    axes.yaxis.set_minor_formatter(NullFormatter())
     axes.axvspan(LEAST, MOST, color="0.95", zorder=0)
     series: dict[str, list[AccuracyRow]] = {}
     for row in sorted(rows, key=lambda row: (row.ns, error_of(row))):

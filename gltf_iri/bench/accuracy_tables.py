@@ -52,7 +52,7 @@ class Tables:
     timed : backend → as many colours out of the first table alone.
     truth : the true colours (n, 3) of all points; None where only the time is of interest.
     filling_ns : of one table; None where nothing filled it.
-    baked, points : of films, what OpenGL is asked, too.
+    baked, points : what OpenGL is asked, too; of each table a film, or the cosines (p,) of a mirror.
     """
 
     label: str
@@ -62,7 +62,7 @@ class Tables:
     truth: Float64 | None
     filling_ns: float | None
     baked: tuple[BakedTable, ...] = ()
-    points: tuple[Film, ...] = ()
+    points: tuple[Any, ...] = ()
 
     def errors(self, rgb: NDArray[np.floating[Any]]) -> Errors | None:
         """Return the errors of what `colours` returned, on whatever device."""

@@ -15,6 +15,7 @@ __all__ = [
     "MOST",
     "OURS",
     "Standing",
+    "by_set_and_device",
     "error_of",
     "front",
     "is_ours",
@@ -88,6 +89,14 @@ def front(rows: Sequence[AccuracyRow], least: float = LEAST, most: float = MOST)
         allowed = math.nextafter(error_of(best), 0.0)
 
 
+def by_set_and_device(rows: Sequence[AccuracyRow]) -> dict[tuple[str, str], list[AccuracyRow]]:
+    """Return the rows of each set and device, in their order."""
+    found: dict[tuple[str, str], list[AccuracyRow]] = {}
+    for row in rows:
+        found.setdefault((row.workload, row.backend), []).append(row)
+    return found
+
+
 def standing(row: AccuracyRow, rows: Sequence[AccuracyRow]) -> Standing:
     """Return how `row` stands against ours among `rows`, of the same set and device."""
     own = error_of(row)
@@ -102,7 +111,8 @@ def standing(row: AccuracyRow, rows: Sequence[AccuracyRow]) -> Standing:
 def standings(rows: Sequence[AccuracyRow]) -> list[Standing]:
     """Return the standing of every row that is not ours, within its own set and device."""
     return [
-        standing(row, [each for each in rows if (each.workload, each.backend) == (row.workload, row.backend)])
-        for row in rows
+        standing(row, group)
+        for group in by_set_and_device(rows).values()
+        for row in group
         if not is_ours(row) and row.errors is not None
     ]

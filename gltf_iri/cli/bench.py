@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gltf_iri.backends import has_numba
+from gltf_iri.cli.bench_accuracy import check_folder, measure_accuracy, print_accuracy, write_accuracy
 from gltf_iri.cli.bench_tables import print_colours, print_optics
 from gltf_iri.cli.common import json_option, note, print_json, progress
 from gltf_iri.errors import UsageError
 
 if TYPE_CHECKING:
+    from gltf_iri.bench.accuracy_row import AccuracyRow
     from gltf_iri.bench.colour_rows import ColourRow
     from gltf_iri.bench.optics import OpticsRow
 
@@ -22,7 +24,7 @@ __all__ = ["FILMS", "OPTICS", "command"]
 
 OPTICS = ("W1", "W2", "W3", "W4", "W5", "lossy-film", "tir-film", "lossy-cells", "tir-cells")
 FILMS = ("films", "films-3um")
-_NAMES = (*FILMS, "dispersion", "mirrors", "optics", *OPTICS, "glsl")
+_NAMES = (*FILMS, "dispersion", "mirrors", "optics", *OPTICS, "glsl", "accuracy")
 _DEFAULT = ("films", "mirrors")
 
 
@@ -51,9 +53,30 @@ class _Report:
     metavar="FILE.png",
     help="Draw time against error (optics only).",
 )
+@click.option(
+    "-o",
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="FOLDER",
+    help="Write tables, plots and the map of costs there (accuracy only).",
+)
+@click.option(
+    "--file",
+    "files",
+    type=click.Path(exists=True, dir_okay=False, readable=True, path_type=Path),
+    multiple=True,
+    metavar="FILE",
+    help="Measure the materials of this file in place of the samples' (accuracy only).",
+)
 @json_option
 def command(
-    names: tuple[str, ...], peers: bool, rounds: int | None, plot: Path | None, as_json: bool
+    names: tuple[str, ...],
+    peers: bool,
+    rounds: int | None,
+    plot: Path | None,
+    out: Path | None,
+    files: tuple[Path, ...],
+    as_json: bool,
 ) -> None:
     """Measure the workloads called NAME; without a name, films and mirrors.
 
@@ -65,13 +88,20 @@ def command(
     sum of W1 to W5, lossy-film, tir-film, lossy-cells and tir-cells, each of which is a NAME too.
 
     glsl: what a colour costs in OpenGL, on one core where the renderer is software.
+
+    accuracy: the map of cost and error: every method with all its settings, and baked tables, by numpy,
+    compiled and in OpenGL, over films, films on metals, thick films, mirrors, and the materials of files.
     """
     chosen = dict.fromkeys(names or _DEFAULT)
     optics = [name for name in OPTICS if name in chosen or "optics" in chosen]
     if (peers or plot) and not optics:
         raise UsageError("--peers and --plot want a workload of reflectances: optics, or one of W1 to W5.")
+    if (out or files) and "accuracy" not in chosen:
+        raise UsageError("-o and --file want the workload accuracy.")
     if plot:
         _check_plot(plot)
+    if out:
+        check_folder(out)
     report = _Report()
     if not has_numba() and not set(chosen) <= {"glsl", "dispersion"}:
         report.leave_out("numba", "compiled loops need it (pip install 'gltf-iri[fast]')")
@@ -86,6 +116,12 @@ def command(
         _optics(report, optics, peers, rounds)
     if "glsl" in chosen:
         _glsl(report, rounds)
+    measured: list[AccuracyRow] = []
+    if "accuracy" in chosen:
+        measured, about = measure_accuracy(files, report.leave_out, rounds)
+        report.machine.update(about)
+        report.rows += measured
+        report.tables.append(lambda: print_accuracy(measured))
     if as_json:
         rows = [row.to_json() for row in report.rows]
         print_json({"white": "D65", "machine": report.machine, "skipped": report.skipped, "rows": rows})
@@ -97,6 +133,10 @@ def command(
         _draw(plot, report)
         if not as_json:
             click.echo(f"The plot is {plot}.")
+    if out:
+        write_accuracy(out, measured, report.machine, report.skipped)
+        if not as_json:
+            click.echo(f"The map is in {out}.")
 
 
 def _check_plot(plot: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gltf_iri.baking.baked import BakedTable
 from gltf_iri.evaluation.film import Film
@@ -15,7 +16,7 @@ from gltf_iri.planning.permutation import permutation
 from gltf_iri.planning.way import Way
 from gltf_iri.rendering.film_tables import film_table_texture, film_table_uniforms
 from gltf_iri.rendering.timed_calls import TimedCall
-from gltf_iri.rendering.twins import FILM_TYPES, film_arguments
+from gltf_iri.rendering.twins import FILM_TYPES, MIRROR_TYPES, film_arguments
 
 if TYPE_CHECKING:
     import moderngl
@@ -35,18 +36,24 @@ vec3 timed_table(vec3 base_f0, float thickness_nm, float cos_theta) {{
 }}"""
 
 
-def table_call(context: moderngl.Context, baked: BakedTable, film: Film) -> TimedCall:
-    """Return the look-up of every row of `film` in its table, beside the twins' calls on the same types.
+def table_call(context: moderngl.Context, baked: BakedTable, at: Film | NDArray[np.float64]) -> TimedCall:
+    """Return the look-up of every row of a film in its table; its arguments are the film twins'.
 
+    at : a film, or of a table of one axis the cosines (n,), which then stand among arguments of mirrors.
     The texture is the caller's to release. Raises MissingCapabilityError where OpenGL takes none so large.
     """
     table = baked.table
+    if isinstance(at, Film):
+        look_up, types, arguments = "timed_table(a2, a3, a4)", FILM_TYPES, film_arguments(at)
+    else:
+        look_up, types = "timed_table(vec3(a0), a1, a6)", MIRROR_TYPES
+        arguments = (*(np.zeros(1),) * (len(MIRROR_TYPES) - 1), at)
     return TimedCall(
         f"a table of {len(table.axes)} axes",
         ('#include "lighting/film_table.glsl"', *_LOOK_UP.format(lobe=table.lobe).splitlines()),
-        "timed_table(a2, a3, a4)",
-        FILM_TYPES,
-        film_arguments(film),
+        look_up,
+        types,
+        arguments,
         textures={f"u_{table.lobe}_table": film_table_texture(context, baked)},
         uniforms=film_table_uniforms(table),
         defines=_defines(table),

@@ -16,7 +16,7 @@ from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.method import METHODS, ParameterValue, find_method
 from gltf_iri.rendering.optics_tables import Table, optics_table
 
-__all__ = ["COMPONENTS", "FILM_TYPES", "ResultType", "Twin", "film_arguments", "find_twin"]
+__all__ = ["COMPONENTS", "FILM_TYPES", "MIRROR_TYPES", "ResultType", "Twin", "film_arguments", "find_twin"]
 
 ResultType = Literal["float", "vec3"]
 
@@ -24,7 +24,7 @@ COMPONENTS: Final[Mapping[ResultType, int]] = {"float": 1, "vec3": 3}
 
 # What films and mirrors are given as, in this order.
 FILM_TYPES: Final[tuple[ResultType, ...]] = ("float", "float", "vec3", "float", "float")
-_MIRROR_TYPES: Final[tuple[ResultType, ...]] = ("float",) * 7
+MIRROR_TYPES: Final[tuple[ResultType, ...]] = ("float",) * 7
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ def find_twin(
     return Twin(
         descriptor.glsl_function,
         f"optics/{method.replace('-', '_')}.glsl",
-        _MIRROR_TYPES if is_mirror else FILM_TYPES,
+        MIRROR_TYPES if is_mirror else FILM_TYPES,
         _arguments(subject),
         {name: optics_table(name, white, blank.parameters) for name in descriptor.glsl_tables},
         blank,
