@@ -40,28 +40,29 @@ _DAMPING: Final = np.array(DAMPING_PER_NM2)
 class SpreadTable:
     """Arrays are read-only.
 
-    coefficients : (_ROWS · CELLS, 2, 4, 3), of Ŝ(D, s) exp(κs²), as in `SensitivityTable`.
+    real, imaginary : (_ROWS · CELLS, 12), of Ŝ(D, s) exp(κs²): four powers of three channels a cell, as in
+    `SensitivityTable`.
     envelope : (_ROWS, CELLS + 1), at least |Ŝ| of every channel for this D and s and all greater.
     """
 
-    coefficients: Float64
+    real: Float64
+    imaginary: Float64
     envelope: Float64
 
     def at(self, opd_nm: Float64, spread_nm: Float64, *, real_only: bool = False) -> Complex128 | Float64:
         """Return Ŝ (r, 3) at D = `opd_nm` ≥ 0 (r,) and s = `spread_nm` (r,); its real part if `real_only`."""
         place = np.minimum(opd_nm / STEP_NM, np.nextafter(CELLS, 0.0))
         cell = place.astype(np.intp)
-        t = (place - cell)[:, None, None]
+        t = (place - cell.astype(np.float64))[:, None]
         row = np.minimum(spread_nm / _ROW_NM, _ROWS - 2.5)
         first = row.astype(np.intp) - 1
-        parts = slice(0, 1 if real_only else 2)
-        total = np.zeros((len(cell), parts.stop, 3))
-        for k, weight in enumerate(_lagrange(row - first)):
-            c = self.coefficients[np.abs(first + k) * CELLS + cell, parts]
-            cubic = c[:, :, 0] + t * (c[:, :, 1] + t * (c[:, :, 2] + t * c[:, :, 3]))
-            total += weight[:, None, None] * cubic
-        total *= np.exp(-np.square(row * _ROW_NM)[:, None] * _DAMPING)[:, None]
-        return total[:, 0] if real_only else total[:, 0] + 1j * total[:, 1]
+        rows = [np.abs(first + k) * CELLS + cell for k in range(4)]
+        weights = _lagrange(row - first)
+        damping: Float64 = np.exp(-np.square(row * _ROW_NM)[:, None] * _DAMPING)
+        real = _cubic(self.real, rows, weights, t) * damping
+        if real_only:
+            return np.asarray(real)
+        return np.asarray(real + 1j * (_cubic(self.imaginary, rows, weights, t) * damping))
 
     def bound(self, opd_nm: Float64, spread_nm: Float64) -> Float64:
         """Return (r,): at least |Ŝ| of every channel for these D and s and all greater."""
@@ -108,16 +109,26 @@ def spread_table(white: White) -> SpreadTable:
         coefficients[i, :, 0], coefficients[i, :, 1] = cubics.real, cubics.imag
     envelope = np.maximum.accumulate(envelope[::-1], axis=0)[::-1]
     envelope[-1] = 0.0
-    flat = coefficients.reshape(-1, 2, 4, 3)
-    for array in (flat, envelope):
+    real, imaginary = (np.ascontiguousarray(coefficients[:, :, part]).reshape(-1, 12) for part in (0, 1))
+    for array in (real, imaginary, envelope):
         array.setflags(write=False)
-    return SpreadTable(flat, envelope)
+    return SpreadTable(real, imaginary, envelope)
 
 
 def _lagrange(t: Float64) -> tuple[Float64, ...]:
     """Return the weights of the cubic through 0, 1, 2 and 3 at `t`."""
     a, b, c, d = t, t - 1.0, t - 2.0, t - 3.0
     return -b * c * d / 6.0, a * c * d / 2.0, -a * b * d / 2.0, a * b * c / 6.0
+
+
+def _cubic(
+    coefficients: Float64, rows: list[NDArray[np.intp]], weights: tuple[Float64, ...], t: Float64
+) -> Float64:
+    """Return (r, 3): the weighted cubics of four cells each at `t` (r, 1)."""
+    c = np.zeros((len(t), 12))
+    for row, weight in zip(rows, weights, strict=True):
+        c += weight[:, None] * coefficients.take(row, axis=0)
+    return np.asarray(c[:, :3] + t * (c[:, 3:6] + t * (c[:, 6:9] + t * c[:, 9:])))
 
 
 def _envelope(sizes: Float64) -> Float64:
