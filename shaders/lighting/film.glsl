@@ -44,12 +44,15 @@
 #endif
 
 #ifdef HAS_DIELECTRIC
-// The film's base has the specular weight in its F0.
+// The film's base has the specular weight in its F0. Of a grey one the compiler sees that it is, and computes once.
 vec3 film_over_dielectric(Surface s, Lobe lobe) {
     vec3 base_f0 = s.specular_weight * s.dielectric_f0;
 #ifdef DIELECTRIC_TABLE
     return dielectric_table(s, base_f0, lobe);
 #else
+#ifdef GREY_DIELECTRIC
+    base_f0 = vec3(base_f0.x);
+#endif
     return FILM_FRESNEL(1.0, s.film_ior, base_f0, FILM_THICKNESS(s), lobe.facet_cosine);
 #endif
 }
@@ -60,7 +63,11 @@ vec3 film_over_metal(Surface s, Lobe lobe) {
 #ifdef METAL_TABLE
     return metal_table(s, s.base_color, lobe);
 #else
-    return FILM_FRESNEL(1.0, s.film_ior, s.base_color, FILM_THICKNESS(s), lobe.facet_cosine);
+    vec3 base_f0 = s.base_color;
+#ifdef GREY_METAL
+    base_f0 = vec3(base_f0.x);
+#endif
+    return FILM_FRESNEL(1.0, s.film_ior, base_f0, FILM_THICKNESS(s), lobe.facet_cosine);
 #endif
 }
 #endif
