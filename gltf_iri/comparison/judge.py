@@ -161,7 +161,7 @@ def _film_of(shot: Shot, plan: MaterialPlan) -> tuple[float, FilmMethod, FilmMet
     # The shader receives the index as float32, and a film of 10 µm shows the rounding.
     parameters = {} if plan.way is None else plan.way.parameters
     method = film_method(plan.method, white, parameters)
-    tables = checked_tables(plan, shot.tables)
+    tables = checked_tables(plan, shot.tables, shot.white)
     if tables:
         method = table_method(tables, method)
     return float(np.float32(iridescence.film_ior)), method, truth

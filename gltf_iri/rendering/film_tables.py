@@ -37,21 +37,24 @@ _STEEPEST: Final = 1e20
 
 
 def checked_tables(
-    plan: MaterialPlan, tables: Mapping[int, Mapping[Lobe, BakedTable]]
+    plan: MaterialPlan, tables: Mapping[int, Mapping[Lobe, BakedTable]], white: str
 ) -> dict[Lobe, BakedTable]:
-    """Return the filled tables of the lobes of `plan`; UsageError where one that its way names is not there.
+    """Return the filled tables of the lobes of `plan`.
 
     tables : by the plans' index (`baking.fill.bake_plans`).
+    white : what they must have been filled under.
+
+    Raises UsageError where one that the plan's way names is not there.
     """
     found: dict[Lobe, BakedTable] = {}
     for lobe, table in film_lobes(plan).items():
         if table is None:
             continue
         baked = tables.get(plan.index, {}).get(lobe)
-        if baked is None or baked.table != table:
+        if baked is None or baked.table != table or baked.white != white:
             raise UsageError(
-                f"The plan of material {plan.index} wants a table of the film over its {lobe}, and "
-                f"{'none' if baked is None else 'another'} was given; fill it with bake_plans."
+                f"The plan of material {plan.index} wants a table of the film over its {lobe} under {white}, "
+                f"and {'none' if baked is None else 'another'} was given; fill it with bake_plans."
             )
         found[lobe] = baked
     return found
@@ -60,22 +63,24 @@ def checked_tables(
 class FilmTableStore:
     """The film tables of one picture's plans; what no plan asks for is never uploaded."""
 
-    def __init__(self, context: moderngl.Context, tables: Mapping[int, Mapping[Lobe, BakedTable]]) -> None:
+    def __init__(
+        self, context: moderngl.Context, tables: Mapping[int, Mapping[Lobe, BakedTable]], white: str
+    ) -> None:
         self._context = context
-        self._tables = tables
+        self._tables, self._white = tables, white
         self._textures: dict[tuple[int, Lobe], Sampled] = {}
 
     def uniforms(self, plan: MaterialPlan) -> dict[str, Any]:
         """Return the uniforms of the tables of `plan`; raises as `checked_tables`."""
         values: dict[str, Any] = {}
-        for baked in checked_tables(plan, self._tables).values():
+        for baked in checked_tables(plan, self._tables, self._white).values():
             values |= film_table_uniforms(baked.table)
         return values
 
     def textures(self, plan: MaterialPlan) -> dict[str, Sampled]:
         """Return the textures by the names of their samplers; raises as `checked_tables`."""
         found = {}
-        for lobe, baked in checked_tables(plan, self._tables).items():
+        for lobe, baked in checked_tables(plan, self._tables, self._white).items():
             key = plan.index, lobe
             if key not in self._textures:
                 self._textures[key] = film_table_texture(self._context, baked)

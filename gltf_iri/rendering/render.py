@@ -110,7 +110,7 @@ class Renderer:
         plans = complete_plans(plans, scene)
         for plan in plans:
             computed_method(plan)
-            checked_tables(plan, tables)
+            checked_tables(plan, tables, white)
         surroundings = plan_scene_effects(scene, environment)
         geometry = GeometryStore(self.context)
         textures = TextureStore(
@@ -119,7 +119,7 @@ class Renderer:
         used = used_plans(scene, plans)
         names = needed_targets(used, with_inputs=with_inputs)
         times = PassTimes(self.context)
-        film_tables = FilmTableStore(self.context, tables)
+        film_tables = FilmTableStore(self.context, tables, white)
         lights = lights_texture(self.context, scene.lights)
         targets: dict[str, Targets] = {}
         try:

@@ -191,8 +191,10 @@ def test_under_punctual_light_a_table_of_the_truth_draws_the_truth(stage, props)
 def test_a_table_that_is_missing_or_another_is_an_error(stage, props):
     plan, tables = with_tables(MATERIAL, 9)
     one = {0: {"metal": tables[0]["metal"]}}
-    with pytest.raises(UsageError, match="film over its dielectric, and none was given"):
+    with pytest.raises(UsageError, match="film over its dielectric under D65, and none was given"):
         stage.draw(props.sphere(), MATERIAL, plans=[plan], tables=one)
     other = replace(tables[0]["metal"], table=replace(tables[0]["metal"].table, film_ior=1.5))
-    with pytest.raises(UsageError, match="film over its metal, and another was given"):
-        checked_tables(plan, {0: {**tables[0], "metal": other}})
+    with pytest.raises(UsageError, match="film over its metal under D65, and another was given"):
+        checked_tables(plan, {0: {**tables[0], "metal": other}}, "D65")
+    with pytest.raises(UsageError, match="film over its dielectric under E, and another was given"):
+        checked_tables(plan, tables, "E")
