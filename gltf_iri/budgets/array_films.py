@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -96,7 +96,9 @@ class FilmColours:
         white: str,
         backend: str,
     ) -> None:
-        self.films, self.tables = films, tables
+        self.films = films
+        # Texels in half precision would be widened for every block anew.
+        self.tables = {lobe: replace(t, texels=t.texels.astype(np.float32)) for lobe, t in tables.items()}
         self.undefined: Counter[str] = Counter()
         available = ("numpy", "numba") if tables else find_method(method, "film").backends
         self.backend = choose_backend(backend, count, available, "table" if tables else method)

@@ -130,6 +130,9 @@ def evaluate_array(
         white=white,
         backend=backend,
     )
+    # Loads what the colours take, which belongs to no rate, and refuses what cannot be evaluated.
+    colours(np.asarray(rows[:1], dtype=np.float64))
+    colours.undefined.clear()
     planned = time.perf_counter()
     stream_colours(rows, out, colours, threads=threads, advance=looking)
     memory.sample()
