@@ -55,13 +55,15 @@ class Asked:
     has_spread: bool = False
 
 
-def choose_way(reach: Reach, asked: Asked, subject: str) -> Chosen:
+def choose_way(reach: Reach, asked: Asked, subject: str, errors: FilmErrors | None = None) -> Chosen:
     """Return the cheapest way to the colour of a material's film, and why.
+
+    errors : of the same reach, light and white, where it is asked several times.
 
     Raises UsageError for a budget below 0 or NaN, and where nothing keeps it for `subject`.
     """
     budget = check_budget(asked.budget)
-    errors = FilmErrors(
+    errors = errors or FilmErrors(
         reach,
         white=asked.white,
         has_image_light=asked.has_image_light,

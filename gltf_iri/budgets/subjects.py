@@ -128,9 +128,9 @@ def _choose(
 
 
 def _p95(errors: Float64) -> float:
-    """Return the least error that SHARE of all do not exceed; NaN counts as infinite."""
+    """Return an error that SHARE of all do not exceed; NaN counts as infinite."""
     ordered = np.sort(np.where(np.isnan(errors), np.inf, errors))
-    return float(ordered[math.ceil(SHARE * len(ordered)) - 1])
+    return float(ordered[math.ceil(SHARE * (len(ordered) - 1))])
 
 
 def _spread_rows(shape: tuple[int, ...], points: int) -> Rows:

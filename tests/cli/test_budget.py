@@ -1,0 +1,129 @@
+"""`--budget` on the verbs: what it chooses, what it tells, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from gltf_iri.cli.main import run
+from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.planning.costs import shipped_costs
+
+FILM = {"iridescenceFactor": 1.0, "iridescenceIor": 1.4}
+
+
+@pytest.fixture(autouse=True)
+def own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+
+
+@pytest.fixture
+def films(tmp_path: Path) -> str:
+    def material(name: str, film: dict[str, Any], **pbr: float) -> dict[str, Any]:
+        pbr = {"metallicFactor": 0.0, "roughnessFactor": 0.0, **pbr}
+        extensions = {"KHR_materials_iridescence": film} if film else {}
+        return {"name": name, "pbrMetallicRoughness": pbr, "extensions": extensions}
+
+    asset = {
+        "asset": {"version": "2.0"},
+        "extensionsUsed": ["KHR_materials_iridescence"],
+        "materials": [
+            material("plain", {}),
+            material("film", FILM),
+            material("weak", FILM | {"iridescenceFactor": 0.01}),
+            material("film again", FILM),
+        ],
+    }
+    path = tmp_path / "films.gltf"
+    path.write_text(json.dumps(asset), encoding="utf-8")
+    return str(path)
+
+
+def answer(capsys: pytest.CaptureFixture[str], *arguments: str) -> Any:
+    assert run([*arguments, "--json"]) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def test_evaluate_tells_the_way_and_keeps_the_budget(capsys: pytest.CaptureFixture[str]) -> None:
+    film = ("evaluate", "--thickness", "300", "--base-f0", "0.9,0.6,0.3")
+    truth = answer(capsys, *film, "--budget", "0")
+    assert (truth["way"], truth["delta_e"]) == ("spectral", 0.0)
+    found = answer(capsys, *film, "--budget", "0.5")
+    assert found["delta_e"] <= 0.5
+    assert found["way"].startswith(found["method"])
+    assert np.percentile(delta_e_2000(found["rgb"], truth["rgb"]), 95) <= found["delta_e"]
+    assert run([*film, "--budget", "0.5"]) == 0
+    assert f"ΔE ≤ {found['delta_e']:.2g}" in capsys.readouterr().out
+
+
+def test_evaluate_takes_mirrors_and_materials(films: str, capsys: pytest.CaptureFixture[str]) -> None:
+    mirror = answer(capsys, "evaluate", "--bragg", "1,1.5,100,90,10", "--cos", "1,0.5", "--budget", "1")
+    assert mirror["delta_e"] <= 1.0
+    found = answer(capsys, "evaluate", films, "--material", "film", "--budget", "0.1")
+    truth = answer(capsys, "evaluate", films, "--material", "film", "--budget", "0")
+    assert (found["material"], truth["method"]) == ("film", "spectral")
+    assert np.percentile(delta_e_2000(found["rgb"], truth["rgb"]), 95) <= found["delta_e"] <= 0.1
+    without = answer(capsys, "evaluate", films, "--material", "film")
+    assert "way" not in without
+
+
+def test_plan_tells_the_way_its_cost_and_its_error(films: str, capsys: pytest.CaptureFixture[str]) -> None:
+    plain, film, weak, again = answer(capsys, "plan", films, "--budget", "0.5")["materials"]
+    assert plain["way"] is None
+    way = film["way"]
+    assert 0.0 < way["delta_e"] <= 0.5
+    assert way["ns_per_colour"] == shipped_costs().ns_of("glsl", "films", way["label"])
+    assert again["way"] == way
+    assert "the cheapest of" in film["method_reason"]
+    assert "iridescence" not in weak["effects"]
+    assert "too weak to be seen: without it ΔE ≤" in weak["skipped"]["iridescence"]
+    assert run(["plan", films, "--budget", "0.5"]) == 0
+    shown = capsys.readouterr().out
+    assert f"{way['label']}: ΔE ≤ {way['delta_e']:.2g}" in shown
+
+
+def test_a_budget_of_zero_plans_the_truth(films: str, capsys: pytest.CaptureFixture[str]) -> None:
+    _, film, weak, _ = answer(capsys, "plan", films, "--budget", "0")["materials"]
+    assert film["way"]["label"] == weak["way"]["label"] == "spectral"
+    assert film["way"]["tables"] == []
+
+
+def test_what_cannot_be_kept_names_the_best(films: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["plan", films, "--budget", "1e-9"]) == 2
+    told = capsys.readouterr().err
+    assert "No way keeps ΔE 1e-09 for material 'film': the best is" in told
+    assert len(told.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize("verb", ["evaluate", "plan", "render", "compare"])
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        (("--budget", "-1"), "not -1"),
+        (("--budget", "nan"), "not nan"),
+        (("--budget", "inf"), "not inf"),
+        (("--budget", "1", "--method", "khr"), "do not go together"),
+        (("--budget", "x"), "not a valid float"),
+    ],
+)
+def test_wrong_calls_say_so(
+    verb: str,
+    wrong: tuple[str, ...],
+    says: str,
+    films: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    place = {"render": ["-o", str(tmp_path / "out.png")]}.get(verb, [])
+    assert run([verb, films, *place, *wrong]) == 2
+    assert says in capsys.readouterr().err
+    assert not (tmp_path / "out.png").exists()
+
+
+def test_settings_and_rays_choose_by_themselves(films: str, tmp_path: Path) -> None:
+    assert run(["evaluate", "--budget", "1", "--set", "tolerance=1e-3"]) == 2
+    assert run(["render", films, "-o", str(tmp_path / "out.png"), "--budget", "1", "--reference"]) == 2
