@@ -31,7 +31,15 @@ from gltf_iri.planning.reach import Reach, Span
 from gltf_iri.planning.way import Way
 from gltf_iri.tolerances import GLSL_FILM_DELTA_E
 
-__all__ = ["BUDGETS", "MATERIALS", "BudgetRow", "measure_budgets", "random_reaches", "reaches_of_file"]
+__all__ = [
+    "BUDGETS",
+    "MATERIALS",
+    "BudgetRow",
+    "BudgetSum",
+    "measure_budgets",
+    "random_reaches",
+    "reaches_of_file",
+]
 __all__ += ["summary"]
 
 Float64 = NDArray[np.float64]
@@ -95,14 +103,28 @@ def measure_budgets(
         after_material()
 
 
-def summary(rows: Sequence[BudgetRow]) -> list[tuple[float, float, float, float]]:
-    """Return for each budget: itself, which shares keep it and are cheapest, worst error over it."""
+@dataclass(frozen=True, slots=True)
+class BudgetSum:
+    """What came of one budget: of how many materials which shares kept it, and by the cheapest way.
+
+    worst : the greatest error over the budget.
+    """
+
+    budget: float
+    materials: int
+    kept: float
+    cheapest: float
+    worst: float
+
+
+def summary(rows: Sequence[BudgetRow]) -> list[BudgetSum]:
+    """Return the sums of each budget."""
     told = []
     for budget in dict.fromkeys(row.budget for row in rows):
         mine = [row for row in rows if row.budget == budget]
+        kept, cheapest = (sum(row.holds for row in mine), sum(row.is_cheapest for row in mine))
         worst = max((row.measured or 0.0) for row in mine) / budget
-        shares = (sum(row.holds for row in mine), sum(row.is_cheapest for row in mine))
-        told.append((budget, shares[0] / len(mine), shares[1] / len(mine), worst))
+        told.append(BudgetSum(budget, len(mine), kept / len(mine), cheapest / len(mine), worst))
     return told
 
 

@@ -13,6 +13,7 @@ import click
 from gltf_iri.backends import has_numba
 from gltf_iri.cli.bench_accuracy import check_folder, measure_accuracy, print_accuracy, write_accuracy
 from gltf_iri.cli.bench_aliasing import measure_pictures, print_aliasing, write_aliasing
+from gltf_iri.cli.bench_budgets import measure_ways
 from gltf_iri.cli.bench_scenes import WHOLE, measure_whole
 from gltf_iri.cli.bench_tables import print_colours, print_optics
 from gltf_iri.cli.common import json_option, note, print_json, progress
@@ -28,7 +29,8 @@ __all__ = ["FILMS", "OPTICS", "command"]
 
 OPTICS = ("W1", "W2", "W3", "W4", "W5", "lossy-film", "tir-film", "lossy-cells", "tir-cells")
 FILMS = ("films", "films-3um")
-_NAMES = (*FILMS, "dispersion", "mirrors", "optics", *OPTICS, "glsl", "accuracy", "aliasing", *WHOLE)
+_NAMES = (*FILMS, "dispersion", "mirrors", "optics", *OPTICS, "glsl", "accuracy", "aliasing", "budgets")
+_NAMES += WHOLE
 _DEFAULT = ("films", "mirrors")
 
 
@@ -70,10 +72,10 @@ class _Report:
     type=click.Path(exists=True, dir_okay=False, readable=True, path_type=Path),
     multiple=True,
     metavar="FILE",
-    help="Measure this file in place of the samples (accuracy and scenes only).",
+    help="Measure this file in place of the samples (accuracy, budgets and scenes only).",
 )
 @click.option(
-    "--count", type=click.IntRange(1), metavar="N", help="Films of the file that is evaluated (arrays only)."
+    "--count", type=click.IntRange(1), metavar="N", help="Films of the file (arrays), or materials (budgets)."
 )
 @json_option
 def command(
@@ -103,6 +105,9 @@ def command(
     aliasing: a sphere under a film of finely varying thickness in 16 to 1024 pixels, against many samples a
     pixel: drawn with the thickness of one texel, with the mean thickness, and with its spread.
 
+    budgets: random materials planned within budgets of ΔE 3 to 0.001, and whether what was chosen keeps them
+    at other points than those it was measured at.
+
     scenes: what iridescence adds to the time of shading 1024 × 1024 pixels, and its error. twenty: what 3
     iridescent materials add to a scene of 17, compiling included. image-light: rough films under a white
     sky. arrays: colours of a .npy file of films.
@@ -111,10 +116,10 @@ def command(
     optics = [name for name in OPTICS if name in chosen or "optics" in chosen]
     if (peers or plot) and not optics:
         raise UsageError("--peers and --plot want a workload of reflectances: optics, or one of W1 to W5.")
-    if files and chosen.keys().isdisjoint({"accuracy", "scenes"}):
-        raise UsageError("--file wants the workload accuracy or scenes.")
-    if count and "arrays" not in chosen:
-        raise UsageError("--count wants the workload arrays.")
+    if files and chosen.keys().isdisjoint({"accuracy", "budgets", "scenes"}):
+        raise UsageError("--file wants the workload accuracy, budgets or scenes.")
+    if count and chosen.keys().isdisjoint({"arrays", "budgets"}):
+        raise UsageError("--count wants the workload arrays or budgets.")
     if out and chosen.keys().isdisjoint({"accuracy", "aliasing"}):
         raise UsageError("-o wants the workload accuracy or aliasing.")
     if plot:
@@ -122,7 +127,7 @@ def command(
     if out:
         check_folder(out)
     report = _Report()
-    if not has_numba() and not set(chosen) <= {"glsl", "dispersion", "aliasing", *WHOLE}:
+    if not has_numba() and not set(chosen) <= {"glsl", "dispersion", "aliasing", "budgets", *WHOLE}:
         report.leave_out("numba", "compiled loops need it (pip install 'gltf-iri[fast]')")
     for name in FILMS:
         if name in chosen:
@@ -147,6 +152,10 @@ def command(
         report.machine.update(about)
         report.rows += pictures.rows
         report.tables.append(partial(print_aliasing, pictures))
+    if "budgets" in chosen:
+        ways, table = measure_ways(files, count)
+        report.rows += ways
+        report.tables.append(table)
     for name in WHOLE:
         if name in chosen:
             whole, table = measure_whole(name, files, rounds, count)
