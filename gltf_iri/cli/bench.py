@@ -29,8 +29,8 @@ __all__ = ["FILMS", "OPTICS", "command"]
 
 OPTICS = ("W1", "W2", "W3", "W4", "W5", "lossy-film", "tir-film", "lossy-cells", "tir-cells")
 FILMS = ("films", "films-3um")
-_NAMES = (*FILMS, "dispersion", "mirrors", "optics", *OPTICS, "glsl", "accuracy", "aliasing", "budgets")
-_NAMES += WHOLE
+_REST = ("accuracy", "aliasing", "budgets", *WHOLE)
+_NAMES = (*FILMS, "dispersion", "mirrors", "optics", *OPTICS, "glsl", *_REST)
 _DEFAULT = ("films", "mirrors")
 
 

@@ -40,6 +40,4 @@ def _print(rows: Sequence[BudgetRow]) -> None:
     )
     for row in rows:
         if not row.holds:
-            note(
-                f"{row.material}: {row.way} errs by ΔE {row.measured:.3g}, beyond the budget of {row.budget:g}."
-            )
+            note(f"{row.material}: {row.way} errs by ΔE {row.measured:.3g}, not within {row.budget:g}.")
