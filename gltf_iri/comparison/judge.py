@@ -152,7 +152,8 @@ def _judge_material(
 def _film_of(shot: Shot, plan: MaterialPlan) -> tuple[float, FilmMethod, FilmMethod]:
     """Return the film's index, the plan's method and the truth; without a film, none of them is used."""
     white = cast(White, shot.white)  # evaluators refuse names that they do not know
-    truth = film_method(TRUTH, white) if plan.way is None else averaged_truth(white)
+    is_averaged = plan.way is not None or plan.calls_for(Effect.IRIDESCENCE_THICKNESS_SPREAD)
+    truth = averaged_truth(white) if is_averaged else film_method(TRUTH, white)
     if not plan.calls_for(Effect.IRIDESCENCE) or plan.method is None:
         return 1.0, truth, truth
     iridescence = plan.material_in(shot.materials).iridescence
