@@ -1,4 +1,4 @@
-"""A film drawn with the spread of its thickness agrees with Python's, and is held against the truth's mean."""
+"""A film drawn with the spread of its thickness is what Python makes of it, and near the mean of the truth."""
 
 from __future__ import annotations
 
