@@ -1,4 +1,4 @@
-"""A film drawn with the spread of its thickness is what Python makes of it, and near the mean of the truth."""
+"""A film drawn with the spread of its thickness is what Python makes of it, near the mean of the truth."""
 
 from __future__ import annotations
 
