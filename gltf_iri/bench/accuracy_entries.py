@@ -39,15 +39,16 @@ Float64 = NDArray[np.float64]
 # A run is repeated within a round until it has lasted so long (bench/timing.py).
 _SHORTEST_S: Final = 0.02
 _MOST_ROUNDS: Final = 9
+_SLOW_S: Final = 1.0
 
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """The true colours (n, 3) of a set, by which method, and what one of them took."""
+    """The true colours (n, 3) of a set, by which method, and how long they took when they were evaluated."""
 
     method: str
     rgb: Float64
-    ns_per_eval: float
+    seconds: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,15 +79,19 @@ def true_colours(subject: Film | Mirror) -> Truth:
     """Return the truth of `subject`, evaluated once."""
     domain: Domain = "mirror" if isinstance(subject, Mirror) else "film"
     name = next(each for each in method_names(domain) if METHODS[each].is_truth)
-    start = time.perf_counter_ns()
+    start = time.perf_counter()
     rgb = evaluate(name, subject, white=WHITE, backend="numpy").rgb
-    return Truth(name, rgb, (time.perf_counter_ns() - start) / len(rgb))
+    return Truth(name, rgb, time.perf_counter() - start)
 
 
 def method_entries(subject: Film | Mirror, truth: Truth) -> Iterator[Entry]:
-    """Yield every method with all its settings, on every installed backend that it has; not the truth."""
+    """Yield every method with all its settings, on every installed backend that it has.
+
+    A truth that took seconds is not asked again.
+    """
     for name in method_names(METHODS[truth.method].domain):
-        for backend in METHODS[name].backends if name != truth.method else ():
+        is_slow = name == truth.method and truth.seconds > _SLOW_S
+        for backend in () if is_slow else METHODS[name].backends:
             for chosen in settings_of(name, ACCURACY_SETTINGS) if backend in backends() else ():
                 values = with_defaults(name, chosen)
                 run = functools.partial(

@@ -41,7 +41,6 @@ def test_every_registered_method_is_measured_with_all_its_settings(domain: Domai
     wanted = {
         (way, backend)
         for name in method_names(domain)
-        if not METHODS[name].is_truth  # whose row is made of the one evaluation that the others are judged by
         for backend in METHODS[name].backends
         if backend != "numba" or has_numba()
         for way in ways(name)
