@@ -138,10 +138,6 @@ class _Fit:
     def _bases(self) -> tuple[Span, Span, Span]:
         return self.reach.base_color if self.lobe == "metal" else self.reach.dielectric_f0
 
-    def _spread_max_nm(self) -> float:
-        # No distribution on a span has a greater standard deviation than half of it (Popoviciu).
-        return 0.5 * (self.reach.thickness_nm.high - self.reach.thickness_nm.low)
-
     def _quantities(self, values: TableValues) -> tuple[TableAxis, ...]:
         """Return the axes that the table needs, with first guesses of their nodes."""
         reach, bases = self.reach, self._bases()
@@ -158,30 +154,39 @@ class _Fit:
         if not all(span.is_point for span in bases):
             base = Span(min(span.low for span in bases), max(span.high for span in bases))
             axes.append(TableAxis("base_f0", base, _nodes(cells)))
-        spread = (
-            self._spread_axis(values, cells) if self.has_spread and not reach.thickness_nm.is_point else ()
-        )
+        spread = self._spread_axis(values, cells) if self._has_spread() else ()
         rough = self._roughness_axis(values, cells) if self._sees_facets() else ()
         if len(axes) + len(rough) + len(spread) > _AXES_MAX:
-            rough = ()
+            # Textures rarely spread far within a pixel; facets do wherever there is roughness.
+            spread = ()
         return (*axes, *rough, *spread)
+
+    def _has_spread(self) -> bool:
+        return self.has_spread and self.reach.spread_nm.high > 0.0
 
     def _sees_facets(self) -> bool:
         return self.has_image_light and self.reach.roughness.high > 0.0
 
     def _roughness_axis(self, values: TableValues, cells: float) -> tuple[TableAxis, ...]:
-        _, facets = self._judged((), values, _MEASURED, seed=1)
+        _, facets, *_ = self._judged((), values, _MEASURED, seed=1)
         if p95_below(facets.delta_e(facets.at_best)) <= _LEFT_OUT_SHARE * self.budget:
             return ()
         return (TableAxis("roughness", Span(0.0, self.reach.roughness.high), _nodes(cells)),)
 
     def _spread_axis(self, values: TableValues, cells: float) -> tuple[TableAxis, ...]:
-        places = self._places(_MEASURED[False], np.random.default_rng(3), spread_nm=self._spread_max_nm())
-        one = places.moved({"spread_nm": np.zeros_like(places.spread_nm)})
-        changed = self._judge(values, one, places)
+        changed = self._judged_spread(values, _MEASURED[False], np.random.default_rng(3), has_axis=False)
         if p95_below(changed.delta_e(changed.at_best)) <= _LEFT_OUT_SHARE * self.budget:
             return ()
-        return (TableAxis("spread_nm", Span(0.0, self._spread_max_nm()), _nodes(cells)),)
+        return (TableAxis("spread_nm", Span(0.0, self.reach.spread_nm.high), _nodes(cells)),)
+
+    def _judged_spread(
+        self, values: TableValues, size: tuple[int, int], g: np.random.Generator, *, has_axis: bool
+    ) -> Judged:
+        """Return places with a spread: up to the greatest along an axis of it, else up to what is usual."""
+        span = self.reach.spread_nm
+        places = self._places(size, g, spread_nm=span.high if has_axis else span.low)
+        read = places if has_axis else places.moved({"spread_nm": np.zeros_like(places.spread_nm)})
+        return self._judge(values, read, places)
 
     def _judged(
         self, axes: Sequence[TableAxis], values: TableValues, sizes: dict[bool, tuple[int, int]], seed: int
@@ -197,9 +202,8 @@ class _Fit:
                 mean = mean_cosine(seen.cos_theta, seen.roughness)
                 read = seen.moved({"cos_theta": mean, "roughness": np.zeros_like(mean)})
             judged.append(self._judge(values, read, seen))
-        if "spread_nm" in quantities:
-            spread = self._places(sizes[False], g, spread_nm=self._spread_max_nm())
-            judged.append(self._judge(values, spread, spread))
+        if self._has_spread():
+            judged.append(self._judged_spread(values, sizes[False], g, has_axis="spread_nm" in quantities))
         return judged
 
     def _judge(self, values: TableValues, read: Places, true: Places) -> Judged:

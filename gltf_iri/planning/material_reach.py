@@ -13,7 +13,7 @@ from gltf_iri.material.ior import Ior
 from gltf_iri.material.material import Material
 from gltf_iri.material.specular import Specular
 from gltf_iri.planning.reach import Reach, Span
-from gltf_iri.planning.texels import texture_spans
+from gltf_iri.planning.texels import texture_spans, texture_spread
 
 if TYPE_CHECKING:
     from gltf_iri.asset.document import Document
@@ -53,11 +53,14 @@ def material_reach(
     (weight,) = texture_spans("specular", material, document).channels
     weight = _times(specular.factor, weight)
     f0 = (material.ior or Ior()).f0
+    spread = texture_spread("iridescence_thickness", material, document)
+    spread = spread.times(abs(film.thickness_max_nm - film.thickness_min_nm))
     colour = _WHITE if vertex_colours is None else vertex_colours
     return Reach(
         film_ior=film.film_ior,
         factor=_times(film.factor, factor),
         thickness_nm=_mixed(film.thickness_min_nm, film.thickness_max_nm, share),
+        spread_nm=Span(spread.usual, spread.greatest),
         metallic=_times(pbr.metallic_factor, metallic),
         roughness=_times(pbr.roughness_factor, roughness),
         base_color=_colours(

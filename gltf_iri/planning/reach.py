@@ -39,6 +39,7 @@ class Reach:
         plan's layering puts it there.
     is_dielectric_grey, is_metal_grey : True where the base's R, G and B are certainly equal at every point:
         one channel stands for all.
+    spread_nm : the thickness' standard deviation within a pixel: what 95 % of pixels lie below, the greatest.
     """
 
     film_ior: float
@@ -50,3 +51,4 @@ class Reach:
     dielectric_f0: tuple[Span, Span, Span]
     is_dielectric_grey: bool = False
     is_metal_grey: bool = False
+    spread_nm: Span = Span(0.0, 0.0)

@@ -16,6 +16,7 @@ from gltf_iri.material.interface import SAMPLERS
 from gltf_iri.material.material import Material
 from gltf_iri.material.texture import TextureInfo
 from gltf_iri.planning.reach import Span
+from gltf_iri.planning.texel_spread import Spread, texel_spread
 from gltf_iri.planning.verdict import UV_SETS_READ
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 
     from gltf_iri.asset.document import Document
 
-__all__ = ["TextureSpans", "texture_spans", "unread_images"]
+__all__ = ["TextureSpans", "texture_spans", "texture_spread", "unread_images"]
 
 _ANYTHING: Final = Span(0.0, 1.0)
 _NOTHING: Final = Span.at(1.0)
@@ -66,6 +67,9 @@ _Looked = dict[int, _Stored | str]
 # By image: what it holds, or the sentence that says why it cannot be read.
 _SEEN: Final[WeakKeyDictionary[Document, _Looked]] = WeakKeyDictionary()
 
+# By image and channel.
+_SPREADS: Final[WeakKeyDictionary[Document, dict[tuple[int, int], Spread]]] = WeakKeyDictionary()
+
 
 def texture_spans(slot: str, material: Material, document: Document | None) -> TextureSpans:
     """Return the spans of the texture in `slot` of material.interface.SAMPLERS, such as "base_color".
@@ -86,6 +90,26 @@ def texture_spans(slot: str, material: Material, document: Document | None) -> T
         space = sampler.row.colour_space if letter != "a" else "linear"  # alpha is linear in every space
         channels.append(Span(_decoded(stored.low[place], space), _decoded(stored.high[place], space)))
     return TextureSpans(tuple(channels), stored.is_grey)
+
+
+def texture_spread(slot: str, material: Material, document: Document | None) -> Spread:
+    """Return how far the texture in `slot` varies within a pixel, by the first channel that it is read for.
+
+    It is 0 where `texture_spans` is one value, and half of what bytes can hold where nobody knows.
+    """
+    (span, *_) = texture_spans(slot, material, document).channels
+    sampler = _SAMPLERS[slot]
+    info = sampler.read(material)
+    if info is None or span.is_point:
+        return Spread(0.0, 0.0)
+    if document is None or _look(info, document) is None:
+        # No distribution on a span has a greater standard deviation than half of it (Popoviciu).
+        return Spread(0.5, 0.5)
+    image, place = document.texture(info.texture).image, "rgba".index(sampler.row.channels[0])
+    known = _SPREADS.setdefault(document, {})
+    if (image, place) not in known:
+        known[image, place] = texel_spread(document.image(image).pixels[..., place])
+    return known[image, place]
 
 
 def unread_images(document: Document) -> tuple[str, ...]:

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.asset.moments import moment_levels
 from gltf_iri.colour.transfer import srgb_decode
 from gltf_iri.errors import MissingCapabilityError
 from gltf_iri.material.interface import TextureBinding
-from gltf_iri.rendering.moments import moment_levels
 
 if TYPE_CHECKING:
     import moderngl

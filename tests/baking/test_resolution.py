@@ -124,7 +124,7 @@ def test_nearly_smooth_facets_want_no_axis_and_keep_the_budget_at_their_mean_cos
 
 
 def test_a_spread_has_an_axis_where_it_shows() -> None:
-    table = fitted(VARYING, "dielectric", 2.0, spread=True)
+    table = fitted(replace(VARYING, spread_nm=Span(100.0, 200.0)), "dielectric", 2.0, spread=True)
     axis = table.axis("spread_nm")
     assert axis is not None
     assert axis.span == Span(0.0, 200.0)
@@ -134,7 +134,7 @@ def test_a_spread_has_an_axis_where_it_shows() -> None:
     truth = prefiltered_fourier(film, spread_nm, "D65", 1e-6)
     found = look_up(bake(table), cosine, thickness_nm, base_f0, spread_nm=spread_nm)
     assert np.quantile(delta_e_2000(found, truth), 0.95) <= 2.0
-    narrow = replace(VARYING, thickness_nm=Span(400.0, 402.0))
+    narrow = replace(VARYING, thickness_nm=Span(400.0, 402.0), spread_nm=Span(0.5, 1.0))
     assert fitted(narrow, "dielectric", 2.0, spread=True).axis("spread_nm") is None
 
 

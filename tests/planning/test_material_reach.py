@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -243,3 +244,13 @@ def test_metallic_spheres_of_index_1_have_no_film(shared_dir):
         assert (plan.method is None) == (film.film_ior == 1.0)
         assert not plan.calls_for(Effect.DIELECTRIC)
         assert plan.grey <= {"metal"}
+
+
+def test_a_thickness_texture_spreads_by_its_share_of_the_range(images):
+    texture = images.add([[(0, 0, 0, 0), (0, 255, 0, 0)], [(0, 255, 0, 0), (0, 0, 0, 0)]])
+    film = Iridescence(factor=1.0, thickness_min_nm=100.0, thickness_max_nm=500.0, thickness_texture=texture)
+    reach = material_reach(Material(iridescence=film), images)
+    assert reach.spread_nm.high == pytest.approx(200.0)
+    assert material_reach(Material(iridescence=film), None).spread_nm == Span(200.0, 200.0)
+    flat = replace(film, thickness_texture=images.add([[(0, 90, 0, 0)]]))
+    assert material_reach(Material(iridescence=flat), images).spread_nm == Span(0.0, 0.0)

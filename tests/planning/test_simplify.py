@@ -206,10 +206,10 @@ def test_a_film_of_the_bases_index_in_every_texel_is_left_out(images, roughnesse
     assert unknown.calls_for(Effect.IRIDESCENCE)
 
 
-def test_many_materials_with_one_image_decode_it_once(images):
+def test_many_materials_with_one_image_look_at_it_twice(images):
     texture = images.add([[RGBA, (1, 2, 3, 4)]])
     plans = plan_materials([textured(texture) for _ in range(40)], document=images)
-    assert images.asked == [1]
+    assert images.asked == [2]  # for its bounds and, in the thickness' channel, for its spread
     assert len(plans) == 40
 
 

@@ -7,8 +7,8 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from gltf_iri.asset.moments import MEAN, SQUARE, moment_levels
 from gltf_iri.material.interface import TextureBinding
-from gltf_iri.rendering.moments import MEAN, SQUARE, moment_levels
 from gltf_iri.rendering.textures import TextureStore
 
 SIZES = [(64, 64), (48, 5), (1, 9), (7, 1), (3, 3), (1, 1), (33, 70)]
