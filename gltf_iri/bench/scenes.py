@@ -12,11 +12,14 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
+import numpy as np
+
 from gltf_iri.baking.baked import BakedTable
 from gltf_iri.baking.fill import bake_plans
 from gltf_iri.bench.colour_rows import WHITE
 from gltf_iri.budgets.plans import plans_within
 from gltf_iri.comparison.run import compare
+from gltf_iri.errors import UsageError
 from gltf_iri.planning.decide import plan_materials
 from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
@@ -71,7 +74,8 @@ class SceneRow:
     delta_e_mean, delta_e_p95 : CIEDE2000 of the picture against the spectral one, over `error_pixels` drawn
         pixels; None where it was not asked for. For a budget image light is the film's mean over the facets
         in both, for a method as published both take F(N·V).
-    ways : how the film of each iridescent material is computed.
+    ways : how the film of each iridescent material is computed; filling_ms : of their tables, once.
+    remark : why there are no figures, where nothing keeps the budget.
     """
 
     workload: str
@@ -88,6 +92,7 @@ class SceneRow:
     error_pixels: int = 0
     ways: Mapping[str, str] = field(default_factory=dict)
     filling_ms: float = 0.0
+    remark: str = ""
 
     def to_json(self) -> dict[str, Any]:
         """Return the row of `bench --json`."""
@@ -109,7 +114,12 @@ def measure_scene(
     """
     model = load(path)
     environment = choose_environment("studio")
-    variants = variants_of(model, environment, size)
+    variants = variants_of(model, environment, size, with_budget=False)
+    remark = ""
+    try:
+        variants = variants_of(model, environment, size)
+    except UsageError as error:  # no way is good enough: the other rows stand all the same
+        remark = str(error)
     renderer = Renderer(context)
     try:
         times, frames = interleaved_ms(renderer, variants, environment, size, rounds, advance)
@@ -120,6 +130,9 @@ def measure_scene(
                 row = _with_error(row, renderer, each, environment, error_size)
                 advance()
             rows.append(row)
+        if remark:
+            lost = replace(rows[0], method=_within(BUDGET), ms=np.nan, ratio=np.nan, ns_per_eval=np.nan)
+            rows.append(replace(lost, remark=remark))
     finally:
         renderer.release()
     return rows
@@ -131,24 +144,32 @@ def variants_of(
     size: tuple[int, int],
     *,
     methods: Sequence[str] = _METHODS,
-    budget: float = BUDGET,
+    with_budget: bool = True,
 ) -> tuple[Variant, ...]:
-    """Return the file without iridescence, by each of `methods` as published, and within `budget`."""
+    """Return the file without iridescence, by each of `methods` as published, and within BUDGET.
+
+    Raises UsageError where nothing keeps it.
+    """
     plain = stripped_model(model)
-    scene = model.scene()
+    published = (
+        Variant(STRIPPED, plain, plan_materials(plain.materials)),
+        *(Variant(name, model, plan_materials(model.materials, method=name)) for name in methods),
+    )
+    if not with_budget:
+        return published
     plans = plans_within(
         model,
-        scene,
-        budget,
+        model.scene(),
+        BUDGET,
         size_pixels=size[0] * size[1],
         has_image_light=environment is not None,
         white=WHITE,
     )
-    return (
-        Variant(STRIPPED, plain, plan_materials(plain.materials)),
-        *(Variant(name, model, plan_materials(model.materials, method=name)) for name in methods),
-        Variant(f"budget {budget:g}", model, plans, bake_plans(plans, WHITE)),
-    )
+    return (*published, Variant(_within(BUDGET), model, plans, bake_plans(plans, WHITE)))
+
+
+def _within(budget: float) -> str:
+    return f"budget {budget:g}"
 
 
 def interleaved_ms(
@@ -226,12 +247,12 @@ def _row(
 
 
 def _ways(plans: Sequence[MaterialPlan]) -> dict[str, str]:
-    """Return how each film is computed, by the material's name or number."""
+    """Return how each film is computed, by the material's number and name, which alone may be another's."""
     ways = {}
     for plan in plans:
         label = plan.method if plan.way is None else plan.way.label
         if label is not None:
-            ways[plan.name or str(plan.index)] = label
+            ways[f"{plan.index} {plan.name}".strip()] = label
     return ways
 
 

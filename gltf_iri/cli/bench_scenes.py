@@ -79,7 +79,7 @@ def _print_scenes(rows: Sequence[SceneRow]) -> None:
             figure(row.delta_e_mean, ".3f"),
             figure(row.delta_e_p95, ".3f"),
             figure(row.error_pixels or None, ","),
-            "; ".join(dict.fromkeys(row.ways.values())),
+            row.remark or "; ".join(dict.fromkeys(row.ways.values())),
         )
         for row in rows
     ]

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from gltf_iri import evaluate as evaluate_films
 from gltf_iri.cli.main import run
+from gltf_iri.colour.difference import delta_e_2000
 
 MIXED = {
     "asset": {"version": "2.0"},
@@ -150,3 +151,51 @@ def test_wrong_calls_are_refused_and_write_nothing(
     assert says in capsys.readouterr().err
     assert [each.name for each in tmp_path.iterdir()] == ["films.npy"]
     assert (tmp_path / "films.npy").read_bytes() == before
+
+
+@pytest.mark.parametrize("budget", ["0.5", "0.01"])
+@pytest.mark.parametrize(
+    ("names", "spans", "way"),
+    [
+        ("cos,thickness", ((0.0, 1.0), (300.0, 310.0)), "table of 2 axes"),
+        ("cos,film_ior", ((0.0, 1.0), (1.2, 2.0)), "fourier"),
+    ],
+)
+def test_a_budget_is_kept_by_tables_or_where_tables_do_not_reach_by_a_method(
+    budget: str,
+    names: str,
+    spans: tuple[tuple[float, float], ...],
+    way: str,
+    tmp_path: Path,
+    capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    rows = written(tmp_path / "films.npy", *spans, count=30_000)
+    options = ("--columns", names, "--budget", budget, "--base-ior", "1.5", "--backend", "numpy")
+    report, colours = evaluated(capsys, tmp_path, *options)
+    few = slice(0, None, 61)
+    given: dict[str, Any] = {"thickness_nm": 400.0} | {
+        {"cos": "cos_theta_1", "thickness": "thickness_nm"}.get(name, name): column[few]
+        for name, column in zip(names.split(","), rows.T, strict=True)
+    }
+    delta_e = delta_e_2000(colours[few], evaluate_films("spectral", base_ior=1.5, **given).rgb)
+    if budget == "0.5":
+        assert way in report["way"]
+    assert report["delta_e"] <= float(budget)
+    assert np.percentile(delta_e, 95) <= float(budget)
+
+
+def test_memory_stays_bounded_whatever_the_rows(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    peaks = []
+    for count in (1 << 19, 1 << 21):
+        rows = np.lib.format.open_memmap(tmp_path / "films.npy", mode="w+", dtype="f4", shape=(count, 2))
+        rows.flush()
+        out = str(tmp_path / "colours.npy")
+        options = ("--method", "naive-rgb", "--backend", "numpy", "--json")
+        assert run(["evaluate", "--in", str(tmp_path / "films.npy"), "--out", out, *options]) == 0
+        peaks.append(json.loads(capsys.readouterr().out)["anonymous_bytes"])
+    if None in peaks:
+        pytest.skip("the system does not tell how much memory a process holds")
+    # As float64, what is read and written by the second call alone takes 84 MB, and by the first 21.
+    assert peaks[1] - peaks[0] < 40e6
