@@ -42,16 +42,19 @@ def interleaved_ns(
             if k_round == 0 and elapsed < _SHORTEST_NS:
                 repeats[k] = math.ceil(_SHORTEST_NS / max(1, elapsed))
                 elapsed = _elapsed_ns(run, repeats[k])
-            times[k].append(elapsed / repeats[k])
+            times[k].append(elapsed)
         after_round()
     return [statistics.median(each) for each in times]
 
 
-def _elapsed_ns(run: Callable[[], object], repeats: int) -> int:
-    start = time.perf_counter_ns()
+def _elapsed_ns(run: Callable[[], object], repeats: int) -> float:
+    """Return the median of `repeats` calls: those that the system interrupted then weigh nothing."""
+    times = []
     for _ in range(repeats):
+        start = time.perf_counter_ns()
         run()
-    return time.perf_counter_ns() - start
+        times.append(time.perf_counter_ns() - start)
+    return statistics.median(times)
 
 
 @contextmanager

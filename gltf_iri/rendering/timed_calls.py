@@ -89,7 +89,10 @@ def time_calls(
         framebuffer.use()
         for draw in draws:
             draw.warm_up()
-        round_s = sum(draw.seconds() * draw.repeats for draw in draws)
+        started = time.perf_counter()
+        for draw in draws:
+            draw.seconds()
+        round_s = time.perf_counter() - started
         count = min(rounds, max(_FEWEST_ROUNDS, int(limit_s / round_s) if math.isfinite(limit_s) else rounds))
         measured = [[draw.seconds() for draw in draws] for _ in range(count)]
     finally:
@@ -141,14 +144,19 @@ class _TimedDraw:
         self.repeats = max(1, math.ceil(_SHORTEST_S / self.seconds()))
 
     def seconds(self) -> float:
-        """Return how long one draw takes, from an idle renderer to an idle renderer."""
+        """Return how long one draw takes, from an idle renderer to an idle renderer; the median of repeats.
+
+        Draws during which the system let another process run then weigh nothing.
+        """
         bind(self._program, self._uniforms, self._textures)
         self._context.finish()
-        started = time.perf_counter()
+        times = []
         for _ in range(self.repeats):
+            started = time.perf_counter()
             self._triangle.render(vertices=3)
             self._context.finish()  # else a renderer may drop a draw that the next one covers
-        return (time.perf_counter() - started) / self.repeats
+            times.append(time.perf_counter() - started)
+        return statistics.median(times)
 
     def release(self) -> None:
         self._triangle.release()
