@@ -77,8 +77,8 @@ def stream_colours(
             block = slice(start, start + rows_at_once)
             filled[block] = colours(np.asarray(rows[block], dtype=np.float64))
 
+        # Not flushed: the system writes when it likes, and would keep the caller waiting for seconds.
         _in_threads(fill, range(0, len(rows), rows_at_once), threads, advance)
-        filled.flush()
 
     try:
         write_whole({out: write})

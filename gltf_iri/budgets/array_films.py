@@ -114,10 +114,9 @@ class FilmColours:
 
     def __call__(self, block: Float64) -> Float64:
         """Return the colours (m, 3) of some rows (m, k)."""
-        rgb = np.zeros((len(block), 3))
-        for lobe, (share, _) in self.films.bases.items():
-            rgb += share * (self._looked_up(block, lobe) if self.tables else self._evaluated(block, lobe))
-        return rgb
+        one = self._looked_up if self.tables else self._evaluated
+        parts = [share * one(block, lobe) for lobe, (share, _) in self.films.bases.items()]
+        return np.asarray(sum(parts[1:], start=parts[0]))
 
     def _looked_up(self, block: Float64, lobe: Lobe) -> Float64:
         films = self.films
