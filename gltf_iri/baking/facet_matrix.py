@@ -8,6 +8,7 @@ Trefethen 2019, "Approximation Theory and Approximation Practice", chapters 3 an
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -23,6 +24,8 @@ Float64 = NDArray[np.float64]
 
 _FEWEST_TERMS: Final = 24
 _MOST_TERMS: Final = 384
+# Materials of one roughness ask for the same moments: those of so many numbers are kept, some 60 MB in all.
+_KEPT_NUMBERS: Final = 1 << 16
 _VALUES_AT_ONCE: Final = 1 << 15  # keeps a block's temporaries in a core's cache
 
 # Gauss points over slopes and turns, and what means of reflectances err by with them: of films of 1.5 µm, and
@@ -47,8 +50,25 @@ def facet_moments(n_dot_v: Float64, roughness: Float64, terms: int, max_error: f
 
     max_error : of means of reflectances, about; 1e-4 or less.
     """
+    cosine, rough = np.broadcast_arrays(n_dot_v, roughness)
+    if cosine.size * terms > _KEPT_NUMBERS:
+        return _moments(cosine, rough, terms, max_error)
+    return _kept_moments(cosine.tobytes(), rough.tobytes(), cosine.shape, terms, max_error)
+
+
+@lru_cache(maxsize=128)
+def _kept_moments(
+    cosine: bytes, rough: bytes, shape: tuple[int, ...], terms: int, max_error: float
+) -> Float64:
+    n_dot_v, roughness = (np.frombuffer(a).reshape(shape) for a in (cosine, rough))
+    moments = _moments(n_dot_v, roughness, terms, max_error)
+    moments.setflags(write=False)
+    return moments
+
+
+def _moments(n_dot_v: Float64, roughness: Float64, terms: int, max_error: float) -> Float64:
     slopes, turns = next(points for error, *points in _QUADRATURES if error <= max_error or error == 0.0)
-    cosine, rough = (a.reshape(-1) for a in np.broadcast_arrays(n_dot_v, roughness))
+    cosine, rough = n_dot_v.reshape(-1), roughness.reshape(-1)
     moments = np.asarray(chebvander(2.0 * cosine - 1.0, terms - 1))
     rows = np.flatnonzero(rough > 0.0)
     step = max(1, _VALUES_AT_ONCE // (2 * slopes * turns))
@@ -64,8 +84,7 @@ def facet_moments(n_dot_v: Float64, roughness: Float64, terms: int, max_error: f
         for j in range(terms):
             moments[part, j] = np.einsum("rq,rq->r", weights, before)
             before, now = now, 2.0 * x * now - before
-    shape = np.broadcast_shapes(n_dot_v.shape, roughness.shape)
-    return np.asarray(moments, np.float64).reshape(*shape, terms)
+    return np.asarray(moments, np.float64).reshape(*n_dot_v.shape, terms)
 
 
 def terms_for(reflectance: Callable[[Float64], Float64], max_error: float) -> int:

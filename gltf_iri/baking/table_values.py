@@ -73,11 +73,7 @@ class TableValues:
             (places.cos_theta.tobytes(), places.roughness.tobytes()),
             lambda: facet_moments(places.cos_theta, places.roughness, terms, self._max_error),
         )
-        at = np.broadcast_to(chebyshev_cosines(terms), (len(places.base_f0), terms))
-        coefficients = self._once(
-            _key(places),
-            lambda: np.einsum("jk,nkc->njc", to_coefficients(terms), self._in_one_direction(at, places)),
-        )
+        coefficients = self._once(_key(places), lambda: self._coefficients(places, terms))
         return np.asarray(np.einsum("nmj,njc->nmc", moments, coefficients))
 
     def _once(self, key: tuple[bytes, ...], compute: Callable[[], Float64]) -> Float64:
@@ -88,10 +84,18 @@ class TableValues:
     def _terms_for(self, places: Places) -> int:
         """Return the terms that a thin, a middling and the thickest film want."""
         rows = np.argsort(places.thickness_nm[:, 0])[[0, len(places.thickness_nm) // 2, -1]]
-        few = Places(*(places.value(each.name)[rows] for each in fields(places)))  # type: ignore[arg-type]
+        few = _rows(places, rows)
         return terms_for(
             lambda at: self._in_one_direction(np.broadcast_to(at, (3, len(at))), few), self._max_error
         )
+
+    def _coefficients(self, places: Places, terms: int) -> Float64:
+        """Return (n, terms, 3) of the series in the cosine; equal films are asked once."""
+        columns = np.column_stack([places.thickness_nm, places.base_f0, places.spread_nm])
+        _, rows, which = np.unique(columns, axis=0, return_index=True, return_inverse=True)
+        at = np.broadcast_to(chebyshev_cosines(terms), (len(rows), terms))
+        colours = self._in_one_direction(at, _rows(places, rows))
+        return np.asarray(np.einsum("jk,nkc->njc", to_coefficients(terms), colours)[which.reshape(-1)])
 
     def _in_one_direction(self, cos_theta: Float64, places: Places) -> Float64:
         """Return (n, k, 3) at the cosines (n, k)."""
@@ -102,6 +106,10 @@ class TableValues:
                 return evaluate("spectral", film, white=self._white).rgb
             return evaluate("fourier", film, white=self._white, parameters=_SERIES).rgb
         return prefiltered_fourier(film, places.spread_nm, self._white, _TOLERANCE)
+
+
+def _rows(places: Places, rows: NDArray[np.intp]) -> Places:
+    return Places(*(places.value(each.name)[rows] for each in fields(places)))  # type: ignore[arg-type]
 
 
 def _key(places: Places) -> tuple[bytes, ...]:
