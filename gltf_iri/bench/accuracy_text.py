@@ -60,6 +60,8 @@ def accuracy_block(rows: Sequence[AccuracyRow]) -> str:
 
 
 def _is_shown(row: AccuracyRow) -> bool:
+    if row.errors is None:
+        return False
     if row.method is None:
         return row.label in _TABLES_SHOWN
     return dict(row.parameters) == with_defaults(row.method, {}) or row.is_truth
