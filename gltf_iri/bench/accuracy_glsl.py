@@ -19,11 +19,11 @@ from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.planning.method import METHODS, Domain, method_names
 from gltf_iri.planning.settings import ACCURACY_SETTINGS, settings_of, with_defaults
-from gltf_iri.planning.way import Way
+from gltf_iri.planning.way import AVERAGED, Way
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.rendering.table_call import table_call, texture_call
 from gltf_iri.rendering.timed_calls import TimedCall, call_colours, time_calls
-from gltf_iri.rendering.timing import twin_call
+from gltf_iri.rendering.timing import averaging_call, twin_call
 
 if TYPE_CHECKING:
     import moderngl
@@ -35,6 +35,9 @@ TEXTURE: Final = "texture"
 
 _ROUNDS: Final = 9
 _SIDE: Final = 256
+
+# A thickness that varies by a twentieth within a pixel.
+_SPREAD_SHARE: Final = 0.05
 
 # What differs from the baseline by less than the clock tells; a price of nothing has no place on a plot.
 _LEAST_NS: Final = 0.01
@@ -89,6 +92,10 @@ def _twins(
             rgb = probe.evaluate(name, subject, white=WHITE, parameters=values).rgb
             row = AccuracyRow(workload, "glsl", way, way, name, 0.0, errors_of(rgb, truth), values)
             yield twin_call(name, subject, WHITE, values), row
+            if METHODS[name].glsl_spread_function is not None and isinstance(subject, Film):
+                averaged = way + AVERAGED
+                call = averaging_call(name, subject, _SPREAD_SHARE, WHITE, values)
+                yield call, AccuracyRow(workload, "glsl", averaged, averaged, name, 0.0, None, values)
 
 
 def _table_row(context: moderngl.Context, workload: str, tables: Tables) -> AccuracyRow:

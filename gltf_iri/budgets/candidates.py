@@ -14,7 +14,7 @@ from gltf_iri.planning.film_table import FilmTable, Lobe
 from gltf_iri.planning.method import METHODS, Domain, ParameterValue
 from gltf_iri.planning.reach import Reach
 from gltf_iri.planning.settings import ACCURACY_SETTINGS, settings_of, with_defaults
-from gltf_iri.planning.way import NO_FILM, Way
+from gltf_iri.planning.way import AVERAGED, NO_FILM, Way
 
 __all__ = ["Candidate", "direct_candidates", "film_workload", "ns_by", "resolves_in_glsl", "table_ns"]
 __all__ += ["without_film"]
@@ -44,18 +44,25 @@ class Candidate:
         return Way(self.method, self.parameters).label
 
 
-def direct_candidates(domain: Domain, device: Device, workloads: Sequence[str]) -> tuple[Candidate, ...]:
+def direct_candidates(
+    domain: Domain, device: Device, workloads: Sequence[str], *, has_spread: bool = False
+) -> tuple[Candidate, ...]:
     """Return the methods for films or mirrors with their settings, cheapest first.
 
     In GLSL those with a twin. Settings that the map of costs does not know are not offered.
 
     workloads : the sets of the map that the colours are like, one for each lobe.
+    has_spread : methods that can average over the thickness within a pixel do so, for what that costs.
     """
     costs = shipped_costs()
     found = (
         Candidate(name, parameters, ns)
         for name, parameters in _settings(domain, device)
-        if (ns := _sum(ns_by(costs, device, each, Way(name, parameters).label) for each in workloads))
+        if (
+            ns := _sum(
+                ns_by(costs, device, each, _priced(name, parameters, has_spread)) for each in workloads
+            )
+        )
         is not None
     )
     return tuple(sorted(found, key=lambda candidate: candidate.ns_per_colour))
@@ -99,6 +106,11 @@ def _settings(domain: Domain, device: Device) -> Iterator[tuple[str, Mapping[str
         if method.domain == domain and (device != "glsl" or method.glsl_function is not None):
             for chosen in settings_of(name, ACCURACY_SETTINGS):
                 yield name, with_defaults(name, chosen)
+
+
+def _priced(name: str, parameters: Mapping[str, ParameterValue], has_spread: bool) -> str:
+    label = Way(name, parameters).label
+    return label + AVERAGED if has_spread and METHODS[name].glsl_spread_function is not None else label
 
 
 def _sum(costs: Iterable[float | None]) -> float | None:

@@ -41,7 +41,7 @@ class Asked:
         None where that differs from place to place.
     is_film_needed : the film's own colour is wanted, so that it is never left out.
     has_tables : whether tables are an answer.
-    has_spread : tables should average over the thickness within a pixel, too.
+    has_spread : the thickness is averaged within a pixel, by tables and methods that can; others err by it.
     """
 
     budget: float
@@ -68,9 +68,10 @@ def choose_way(reach: Reach, asked: Asked, subject: str, errors: FilmErrors | No
         white=asked.white,
         has_image_light=asked.has_image_light,
         bare_at_grazing=1.0 if asked.bare_at_grazing is None else asked.bare_at_grazing,
+        has_spread=asked.has_spread,
     )
     workloads = [film_workload(reach, lobe) for lobe in errors.lobes]
-    candidates = direct_candidates("film", asked.device, workloads)
+    candidates = direct_candidates("film", asked.device, workloads, has_spread=asked.has_spread)
     if budget == 0.0:
         return the_truth(candidates)
     if asked.device == "glsl" and not resolves_in_glsl(reach):

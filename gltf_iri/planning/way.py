@@ -10,10 +10,13 @@ from typing import Any, Final
 from gltf_iri.planning.film_table import FilmTable
 from gltf_iri.planning.method import ParameterValue, parameters_text
 
-__all__ = ["NO_FILM", "Way"]
+__all__ = ["AVERAGED", "NO_FILM", "Way"]
 
 # Stands in the map of costs and in `Way.label` for a film that is left out.
 NO_FILM: Final = "no film"
+
+# Follows the label of a method in the map of costs where it averages over thicknesses within a pixel.
+AVERAGED: Final = ", averaged over thickness"
 
 
 @dataclass(frozen=True, slots=True)

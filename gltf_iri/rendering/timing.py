@@ -7,16 +7,18 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
+from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
-from gltf_iri.planning.method import ParameterValue
+from gltf_iri.planning.method import ParameterValue, find_method
+from gltf_iri.rendering.optics_tables import optics_table
 from gltf_iri.rendering.timed_calls import TimedCall, time_calls
 from gltf_iri.rendering.twins import find_twin
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["TwinTimes", "time_twins", "twin_call"]
+__all__ = ["TwinTimes", "averaging_call", "time_twins", "twin_call"]
 
 _SIDE: Final = 1024
 
@@ -46,6 +48,34 @@ def twin_call(
         twin.types,
         twin.arguments,
         tables=twin.tables,
+    )
+
+
+def averaging_call(
+    method: str,
+    film: Film,
+    share: float,
+    white: str = "D65",
+    parameters: Mapping[str, ParameterValue] = MappingProxyType({}),
+) -> TimedCall:
+    """Return the call of the twin of `method` that averages over a deviation of `share` of each thickness.
+
+    Raises UsageError as `find_twin`, and for a method that cannot average.
+    """
+    descriptor = find_method(method, "film")
+    if descriptor.glsl_spread_function is None:
+        raise UsageError(f"The method '{method}' cannot average over thickness in GLSL.")
+    twin = find_twin(method, film, white, parameters)
+    function = descriptor.glsl_spread_function
+    names = [f"a{i}" for i in range(len(twin.types))]
+    *before, cosine = names
+    arguments = ", ".join((*before, f"{share!r} * {before[-1]}", cosine))
+    tables = {
+        name: optics_table(name, white, twin.blank.parameters) for name in descriptor.glsl_spread_tables
+    }
+    include = f"optics/{function.removeprefix('iridescent_fresnel_')}.glsl"
+    return TimedCall(
+        function, (f'#include "{include}"',), f"{function}({arguments})", twin.types, twin.arguments, tables
     )
 
 

@@ -1,6 +1,6 @@
 // How thick a film is within a pixel: mean and standard deviation, from mip levels of first and second moments.
 // Belcour & Barla 2017, section 5, Multi-scale Rendering: a Gaussian of these stands for the thicknesses.
-// gltf_iri.asset.moments.py makes the levels.
+// gltf_iri/asset/moments.py makes the levels.
 
 #include "generated/material.glsl"
 #include "lighting/footprint.glsl"
