@@ -11,6 +11,7 @@ from gltf_iri.bench.budgets import BUDGETS, measure_budgets, random_reaches
 from gltf_iri.budgets.candidates import direct_candidates
 from gltf_iri.budgets.choose import Asked, choose_way
 from gltf_iri.budgets.errors import FilmErrors
+from gltf_iri.budgets.search import figure
 from gltf_iri.errors import UsageError
 from gltf_iri.planning.costs import shipped_costs
 from gltf_iri.planning.reach import Reach, Span
@@ -119,7 +120,7 @@ def test_image_light_asks_more_of_rough_surfaces() -> None:
 
 def test_reasons_tell_the_figures() -> None:
     found = choose_way(PLAIN, DIRECT, "it")
-    assert f"{found.way.ns_per_colour:.2g} ns a colour" in found.reason
+    assert f" for {figure(found.way.ns_per_colour)} ns a colour" in found.reason
     assert "within ΔE 0.3: ΔE ≤ 0." in found.reason
 
 
