@@ -76,8 +76,8 @@ def _fronts(rows: Sequence[AccuracyRow]) -> Iterator[str]:
     yield ""
     yield f"ΔE: the 95th percentile of CIEDE2000. The filling of tables is spread over {SHADINGS:,} shadings."
     yield (
-        "A table holds one film at every angle, and with more axes at every thickness or base: several films of"
-        " a set have tables, each asked at points of its own."
+        "A table holds one film at every angle, and with more axes at every thickness or base: several films"
+        " of a set have tables, each asked at points of its own."
     )
     yield ""
     yield "| set | device | way | ns | of it filling | ΔE p95 | meant |"
