@@ -113,25 +113,36 @@ def measure_growth(
             _row(each, name, environment, size, (cold[k], cold[0]), (warm[k], warm[1], warm[0]))
             for k, each in enumerate(variants)
         ]
-        return rows, list(_programs(variants[-1], environment, size))
+        within = next(each for each in variants if each.tables)
+        return rows, list(_programs(within, environment, size))
 
 
 @contextmanager
 def _variants(environment: Environment | None, size: tuple[int, int]) -> Iterator[tuple[Variant, ...]]:
-    """Yield 17 materials on 17 balls and on 20; 20 with their films stripped, and with films in two ways."""
+    """Yield 17 materials on 17 balls and on 20; 20 without films, and with films; the same of films alike."""
     plain_count = TWENTY - FILMED
     with tempfile.TemporaryDirectory() as folder:
         models = []
-        for materials, balls in ((plain_count, plain_count), (plain_count, TWENTY), (TWENTY, TWENTY)):
-            place = Path(folder) / f"{materials} on {balls}"
-            files = {place / name: data for name, data in scene_files(materials, balls).items()}
+        for materials, balls, are_alike in (
+            (plain_count, plain_count, False),
+            (plain_count, TWENTY, False),
+            (TWENTY, TWENTY, False),
+            (TWENTY, TWENTY, True),
+        ):
+            place = Path(folder) / f"{materials} on {balls}, {are_alike}"
+            contents = scene_files(materials, balls, are_films_alike=are_alike)
+            files = {place / name: data for name, data in contents.items()}
             write_whole(files)
             models.append(load(next(iter(files))))
-        left_out, worn, whole = models
+        left_out, worn, whole, alike = models
         yield (
             Variant("17, the others left out", left_out, plan_materials(left_out.materials)),
             Variant("17 on 20 balls", worn, plan_materials(worn.materials)),
             *variants_of(whole, environment, size, methods=("khr-guarded",)),
+            *(
+                replace(each, name=f"{each.name}, three alike")
+                for each in variants_of(alike, environment, size, methods=())
+            ),
         )
 
 

@@ -47,15 +47,20 @@ _MORE: Final[Mapping[int, Mapping[str, Any]]] = {
     18: {"extensions": _film(1.8, iridescenceThicknessTexture={"index": _WAVES})},
     19: {"extensions": _film(1.5, iridescenceThicknessTexture={"index": _WAVES})},
 }
+_ALIKE: Final = range(TWENTY - FILMED, TWENTY)
 _PAINTED: Final = (2, 3, 6, 11, 13, 18)  # with a base colour texture
 _WORN: Final = (6, 8, 13, 16)  # with a texture of metalness and roughness
 _METALLIC: Final = (0.0, 1.0, 0.4, 0.0, 1.0)  # of every fifth ball
 
 
-def scene_files(materials: int = TWENTY, balls: int = TWENTY) -> dict[str, bytes]:
+def scene_files(
+    materials: int = TWENTY, balls: int = TWENTY, *, are_films_alike: bool = False
+) -> dict[str, bytes]:
     """Return a .gltf with its files: the first `balls`, where they stand among all, of so many materials.
 
     Balls beyond the last material wear the first ones once more.
+
+    are_films_alike : the three iridescent materials call for the same effects, and differ by their numbers.
     """
     shape = sphere(_RADIUS_M, rings=24, segments=48)
     arrays: tuple[tuple[NDArray[Any], str, int], ...] = (
@@ -73,7 +78,7 @@ def scene_files(materials: int = TWENTY, balls: int = TWENTY) -> dict[str, bytes
         )
         binary += array.tobytes() + bytes(-array.nbytes % 4)
     accessors[0] |= {"min": arrays[0][0].min(axis=0).tolist(), "max": arrays[0][0].max(axis=0).tolist()}
-    worn = [_material(k) for k in range(materials)]
+    worn = [_film_alone(k) if are_films_alike and k in _ALIKE else _material(k) for k in range(materials)]
     places = [divmod(k, _COLUMNS) for k in range(balls)]
     camera = {
         "type": "perspective",
@@ -124,3 +129,9 @@ def _material(k: int) -> dict[str, Any]:
     if k in _WORN:
         core["metallicRoughnessTexture"] = {"index": _CHECKS}
     return {"name": f"material {k}", "pbrMetallicRoughness": core, **_MORE.get(k, {})}
+
+
+def _film_alone(k: int) -> dict[str, Any]:
+    core = {"metallicFactor": 0.0, "roughnessFactor": 0.3}
+    film = _film(1.3 + 0.1 * (k % FILMED), iridescenceThicknessMaximum=300.0 + 50.0 * (k % FILMED))
+    return {"name": f"material {k}", "pbrMetallicRoughness": core, "extensions": film}

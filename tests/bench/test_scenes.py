@@ -18,6 +18,9 @@ from gltf_iri.bench.twenty import FILMED, TWENTY, scene_files
 from gltf_iri.cli.main import run
 from gltf_iri.optics.dfg import dfg_terms
 from gltf_iri.optics.microfacet import alpha_ggx
+from gltf_iri.planning.decide import plan_materials
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.permutation import permutation
 from gltf_iri.rendering.context import create_context
 from gltf_iri.samples.collection import build_samples
 from gltf_iri.scene.load import load
@@ -86,16 +89,28 @@ def test_the_scene_of_twenty_is_sound_and_its_last_three_are_iridescent(tmp_path
         assert has_film == [k >= TWENTY - FILMED for k in range(materials)]
 
 
+def test_films_that_are_alike_share_a_program(tmp_path: Path) -> None:
+    write_whole({tmp_path / name: data for name, data in scene_files(are_films_alike=True).items()})
+    model = load(tmp_path / "balls.gltf")
+    plans = plan_materials(model.materials, document=model.document, scene=model.scene())
+    films = plans[TWENTY - FILMED :]
+    assert len({permutation(plan, (), (Effect.IMAGE_LIGHT,)) for plan in films}) == 1
+    assert len({plan.material for plan in films}) == FILMED
+
+
 def test_what_three_films_add_is_named_program_by_program(monkeypatch: pytest.MonkeyPatch) -> None:
     # One ball compiles in a moment, and the last one has a film; filtered skies take longer.
     monkeypatch.setattr(scene_growth, "choose_environment", lambda _: None)
-    monkeypatch.setattr(scene_growth, "scene_files", lambda m, b: _last_ball(scene_files(m, b)))
+    monkeypatch.setattr(
+        scene_growth, "scene_files", lambda m, b, **alike: _last_ball(scene_files(m, b, **alike))
+    )
     rows, programs = measure_growth(rounds=1, size=(16, 16))
-    left_out, worn, stripped, guarded, within = rows
+    left_out, worn, stripped, guarded, within, _, alike = rows
     assert left_out.ratio_left_out == left_out.compile_ratio == 1.0
     assert worn.ratio == 1.0
     assert "METHOD_KHR_GUARDED" in guarded.switches
     assert "HAS_IRIDESCENCE" in within.switches
+    assert "HAS_IRIDESCENCE" in alike.switches
     for row in (left_out, worn, stripped):
         assert "HAS_IRIDESCENCE" in row.pruned
     for row in rows:
