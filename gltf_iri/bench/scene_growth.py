@@ -18,7 +18,15 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any, Final
 
-from gltf_iri.bench.scenes import Variant, draw_variant, interleaved_ms, median_ratio, variants_of
+from gltf_iri.bench.scenes import (
+    BUDGET,
+    Variant,
+    draw_variant,
+    within_name,
+    interleaved_ms,
+    median_ratio,
+    variants_of,
+)
 from gltf_iri.bench.twenty import FILMED, TWENTY, scene_files
 from gltf_iri.planning.decide import plan_materials
 from gltf_iri.planning.permutation import permutation, plan_scene_effects, primitive_effects
@@ -113,7 +121,7 @@ def measure_growth(
             _row(each, name, environment, size, (cold[k], cold[0]), (warm[k], warm[1], warm[0]))
             for k, each in enumerate(variants)
         ]
-        within = next(each for each in variants if each.tables)
+        within = next(each for each in variants if each.name == within_name(BUDGET))
         return rows, list(_programs(within, environment, size))
 
 

@@ -33,17 +33,9 @@ from gltf_iri.scene.model import Environment, Scene
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = [
-    "BUDGET",
-    "SCENE_ROUNDS",
-    "STRIPPED",
-    "VARIANTS",
-    "SceneRow",
-    "Variant",
-    "draw_variant",
-    "interleaved_ms",
-]
+__all__ = ["BUDGET", "SCENE_ROUNDS", "STRIPPED", "VARIANTS", "SceneRow", "Variant", "draw_variant"]
 __all__ += ["interleaved_ms", "measure_scene", "median_ratio", "shading_ms", "stripped_model", "variants_of"]
+__all__ += ["within_name"]
 
 Tables = Mapping[int, Mapping[Lobe, BakedTable]]
 
@@ -131,7 +123,7 @@ def measure_scene(
                 advance()
             rows.append(row)
         if remark:
-            lost = replace(rows[0], method=_within(BUDGET), ms=np.nan, ratio=np.nan, ns_per_eval=np.nan)
+            lost = replace(rows[0], method=within_name(BUDGET), ms=np.nan, ratio=np.nan, ns_per_eval=np.nan)
             rows.append(replace(lost, remark=remark))
     finally:
         renderer.release()
@@ -157,7 +149,7 @@ def variants_of(
     )
     if not with_budget:
         return published
-    plans = plans_within(
+    plans = planswithin_name(
         model,
         model.scene(),
         BUDGET,
@@ -165,10 +157,11 @@ def variants_of(
         has_image_light=environment is not None,
         white=WHITE,
     )
-    return (*published, Variant(_within(BUDGET), model, plans, bake_plans(plans, WHITE)))
+    return (*published, Variant(within_name(BUDGET), model, plans, bake_plans(plans, WHITE)))
 
 
-def _within(budget: float) -> str:
+def within_name(budget: float) -> str:
+    """Return what a variant within `budget` is called."""
     return f"budget {budget:g}"
 
 

@@ -133,5 +133,5 @@ def _material(k: int) -> dict[str, Any]:
 
 def _film_alone(k: int) -> dict[str, Any]:
     core = {"metallicFactor": 0.0, "roughnessFactor": 0.3}
-    film = _film(1.3 + 0.1 * (k % FILMED), iridescenceThicknessMaximum=300.0 + 50.0 * (k % FILMED))
+    film = _film(1.35 + 0.1 * (k % FILMED), iridescenceThicknessMaximum=300.0 + 50.0 * (k % FILMED))
     return {"name": f"material {k}", "pbrMetallicRoughness": core, "extensions": film}
