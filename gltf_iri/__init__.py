@@ -22,8 +22,8 @@ if typing.TYPE_CHECKING:
     from gltf_iri.colour.spaces import Light
     from gltf_iri.evaluation.film import Base, Dispersion, Evaluation
     from gltf_iri.material.material import Material
-    from gltf_iri.planning.film_table import Lobe
     from gltf_iri.planning.material_plan import MaterialPlan
+    from gltf_iri.planning.reach import Lobe
     from gltf_iri.rendering.frame import Frame
     from gltf_iri.scene.load import Model
     from gltf_iri.scene.model import Camera, Environment

@@ -21,8 +21,9 @@ from gltf_iri.baking.lookup import axis_values
 from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.costs import shipped_costs
-from gltf_iri.planning.film_table import FilmTable, Lobe, Quantity
+from gltf_iri.planning.film_table import FilmTable, Quantity
 from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.reach import Lobe
 
 __all__ = ["bake", "bake_plans", "filling_ns", "spread_matrix", "spread_thicknesses"]
 

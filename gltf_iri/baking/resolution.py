@@ -23,8 +23,8 @@ from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
 from gltf_iri.optics.facet_mean import mean_cosine
 from gltf_iri.optics.fresnel import f_schlick
-from gltf_iri.planning.film_table import FilmTable, Lobe, TableAxis, Texel
-from gltf_iri.planning.reach import Reach, Span
+from gltf_iri.planning.film_table import FilmTable, TableAxis, Texel
+from gltf_iri.planning.reach import Lobe, Reach, Span
 
 __all__ = ["BYTES_MAX", "filling_ns", "fit_table"]
 
@@ -129,18 +129,15 @@ class _Fit:
         return TableValues(self.reach.film_ior, self.white, is_exact=is_exact, facet_max_error=max_error)
 
     def _table(self, axes: tuple[TableAxis, ...], texel: Texel) -> FilmTable:
-        bases = self._bases()
+        bases = self.reach.base(self.lobe)
         r, g, b = (span.low for span in bases)
         return FilmTable(
             self.lobe, self.reach.film_ior, self.reach.thickness_nm.low, (r, g, b), axes, texel, 0.0
         )
 
-    def _bases(self) -> tuple[Span, Span, Span]:
-        return self.reach.base_color if self.lobe == "metal" else self.reach.dielectric_f0
-
     def _quantities(self, values: TableValues) -> tuple[TableAxis, ...]:
         """Return the axes that the table needs, with first guesses of their nodes."""
-        reach, bases = self.reach, self._bases()
+        reach, bases = self.reach, self.reach.base(self.lobe)
         # Half a fringe at 550 nm is worth some cells; errors go with their square.
         cells = 4.0 * math.sqrt(0.5 / self.budget)
         paths = (
@@ -219,9 +216,8 @@ class _Fit:
         spread_nm: float = 0.0,
     ) -> Places:
         films = (size[0], 1)
-        bases = self._bases()
-        is_grey = self.reach.is_metal_grey if self.lobe == "metal" else self.reach.is_dielectric_grey
-        drawn = g.uniform(size=(size[0], 1 if is_grey else 3))
+        bases = self.reach.base(self.lobe)
+        drawn = g.uniform(size=(size[0], 1 if self.reach.is_grey(self.lobe) else 3))
         low, high = (np.array([getattr(span, end) for span in bases]) for end in ("low", "high"))
         return Places(
             cos_theta=g.uniform(size=size),

@@ -24,8 +24,8 @@ from gltf_iri.bench.colour_rows import WHITE
 from gltf_iri.bench.film_parts import FilmPart, film_of, point_parts, points_of, table_of, varied
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.film_table import FilmTable, Lobe, Quantity, TableAxis, Texel
-from gltf_iri.planning.reach import Span
+from gltf_iri.planning.film_table import FilmTable, Quantity, TableAxis, Texel
+from gltf_iri.planning.reach import Lobe, Span
 
 __all__ = ["Tables", "film_entry", "film_tables", "look_ups", "set_parts", "table_label"]
 

@@ -19,15 +19,14 @@ from gltf_iri.baking.lookup import look_up
 from gltf_iri.budgets.candidates import Candidate, direct_candidates, film_workload, without_film
 from gltf_iri.budgets.choose import Asked, choose_way
 from gltf_iri.budgets.errors import FilmErrors
-from gltf_iri.budgets.samples import base_spans, lobes_of
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.fresnel import f_schlick
-from gltf_iri.planning.film_table import FilmTable, Lobe
+from gltf_iri.planning.film_table import FilmTable
 from gltf_iri.planning.method import ParameterValue
-from gltf_iri.planning.reach import Reach, Span
+from gltf_iri.planning.reach import Lobe, Reach, Span
 from gltf_iri.planning.way import Way
 from gltf_iri.tolerances import GLSL_FILM_DELTA_E
 
@@ -96,7 +95,7 @@ def measure_budgets(
     for number, (name, reach) in enumerate(reaches):
         truth = _Truth(reach, np.random.default_rng(number))
         errors = FilmErrors(reach, has_image_light=False)
-        workloads = [film_workload(reach, lobe) for lobe in lobes_of(reach)]
+        workloads = [film_workload(reach, lobe) for lobe in reach.lobes]
         candidates = (without_film("glsl", workloads), *direct_candidates("film", "glsl", workloads))
         for budget in budgets:
             yield _row(name, reach, budget, errors, candidates, truth)
@@ -189,10 +188,9 @@ class _Truth:
         self._bare: dict[Lobe, Float64] = {}
         self._truth: dict[Lobe, Float64] = {}
         self._known: dict[str, float] = {}
-        for lobe in lobes_of(reach):
-            base, is_grey = base_spans(reach, lobe)
-            base_f0 = np.stack([_drawn(g, span) for span in base], axis=-1)
-            base_f0 = np.repeat(base_f0[:, :1], 3, axis=1) if is_grey else base_f0
+        for lobe in reach.lobes:
+            base_f0 = np.stack([_drawn(g, span) for span in reach.base(lobe)], axis=-1)
+            base_f0 = np.repeat(base_f0[:, :1], 3, axis=1) if reach.is_grey(lobe) else base_f0
             cosine = g.uniform(0.0, 1.0, _POINTS)
             film = Film.of(cosine, _drawn(g, reach.thickness_nm), reach.film_ior, base_from_f0(base_f0))
             self._films[lobe] = film

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.evaluation.film import Film, base_from_f0
-from gltf_iri.planning.film_table import FilmTable, Lobe, Quantity, TableAxis, Texel
-from gltf_iri.planning.reach import Span
+from gltf_iri.planning.film_table import FilmTable, Quantity, TableAxis, Texel
+from gltf_iri.planning.reach import Lobe, Span
 
 __all__ = ["FilmPart", "film_of", "point_parts", "points_of", "table_of", "varied"]
 

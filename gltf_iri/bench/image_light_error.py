@@ -26,8 +26,7 @@ from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.dfg import dfg_terms
 from gltf_iri.optics.microfacet import alpha_ggx
-from gltf_iri.planning.film_table import Lobe
-from gltf_iri.planning.reach import Reach, Span
+from gltf_iri.planning.reach import Lobe, Reach, Span
 
 __all__ = ["FILMS", "ROUGHNESSES", "ImageLightRow", "SkyFilm", "facets_seen", "measure_image_light"]
 

@@ -10,7 +10,6 @@ from typing import Final
 
 from gltf_iri.bench.film_parts import FilmPart
 from gltf_iri.planning.material_reach import material_reach
-from gltf_iri.planning.reach import Reach
 from gltf_iri.samples.collection import build_samples
 from gltf_iri.scene.load import Model, load
 from gltf_iri.whole_files import write_whole
@@ -61,18 +60,11 @@ def _parts(model: Model) -> list[FilmPart]:
     for material in model.materials:
         reach = material_reach(material, model.document)
         if reach is not None:
-            parts += _lobes(reach)
+            parts += [
+                FilmPart(lobe, reach.film_ior, reach.thickness_nm, reach.base(lobe)) for lobe in reach.lobes
+            ]
         if len(parts) > _MOST_PARTS:
             break
-    return parts
-
-
-def _lobes(reach: Reach) -> list[FilmPart]:
-    parts = []
-    if reach.metallic.low < 1.0:
-        parts.append(FilmPart("dielectric", reach.film_ior, reach.thickness_nm, reach.dielectric_f0))
-    if reach.metallic.high > 0.0:
-        parts.append(FilmPart("metal", reach.film_ior, reach.thickness_nm, reach.base_color))
     return parts
 
 

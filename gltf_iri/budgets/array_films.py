@@ -22,9 +22,8 @@ from gltf_iri.material.material import Material
 from gltf_iri.material.specular import Specular
 from gltf_iri.optics.ior import fresnel0_to_ior
 from gltf_iri.planning.decide import plan_material
-from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.method import ParameterValue, find_method
-from gltf_iri.planning.reach import Reach, Span
+from gltf_iri.planning.reach import Lobe, Reach, Span
 from gltf_iri.planning.way import Way
 
 __all__ = ["AIR", "ArrayFilms", "FilmColours", "films_of_material", "lobe_of", "reach_of_films"]

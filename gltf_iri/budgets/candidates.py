@@ -7,12 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from gltf_iri.budgets.samples import base_spans
 from gltf_iri.colour.quadrature import HALF_BANDWIDTH_PER_NM
 from gltf_iri.planning.costs import Costs, Device, shipped_costs
-from gltf_iri.planning.film_table import FilmTable, Lobe
+from gltf_iri.planning.film_table import FilmTable
 from gltf_iri.planning.method import METHODS, Domain, ParameterValue
-from gltf_iri.planning.reach import Reach
+from gltf_iri.planning.reach import Lobe, Reach
 from gltf_iri.planning.settings import ACCURACY_SETTINGS, settings_of, with_defaults
 from gltf_iri.planning.way import AVERAGED, NO_FILM, Way
 
@@ -78,8 +77,8 @@ def film_workload(reach: Reach, lobe: Lobe) -> str:
     """Return the set of the map of costs whose films are like those over `lobe`."""
     if reach.thickness_nm.high > _THICK_NM:
         return "thick"
-    base, is_grey = base_spans(reach, lobe)
-    is_grey = is_grey or (base[0].is_point and base[0] == base[1] == base[2])
+    base = reach.base(lobe)
+    is_grey = reach.is_grey(lobe) or (base[0].is_point and base[0] == base[1] == base[2])
     return "films" if is_grey else "metals"
 
 

@@ -15,13 +15,12 @@ from gltf_iri.budgets.candidates import (
     without_film,
 )
 from gltf_iri.budgets.errors import FilmErrors, Measured
-from gltf_iri.budgets.samples import base_spans
 from gltf_iri.budgets.search import Chosen, TableOffer, cheapest_way, check_budget, figure, the_truth
 from gltf_iri.colour.spaces import WHITES, Light
 from gltf_iri.planning.costs import Device
-from gltf_iri.planning.film_table import FilmTable, Lobe, TableAxis
+from gltf_iri.planning.film_table import FilmTable, TableAxis
 from gltf_iri.planning.method import METHODS
-from gltf_iri.planning.reach import Reach, Span
+from gltf_iri.planning.reach import Lobe, Reach, Span
 from gltf_iri.planning.way import Way
 from gltf_iri.tolerances import GLSL_FILM_DELTA_E
 
@@ -140,11 +139,10 @@ def _tables(errors: FilmErrors, asked: Asked, floor: float) -> TableOffer:
 
 def _least_table_ns(reach: Reach, lobe: Lobe, asked: Asked) -> float:
     """Return what a colour costs out of a table with the axes that it cannot do without."""
-    base, _ = base_spans(reach, lobe)
     axes = [TableAxis("cos_theta", Span(0.0, 1.0), 2)]
     if not reach.thickness_nm.is_point:
         axes.append(TableAxis("thickness_nm", reach.thickness_nm, 2))
-    if not all(span.is_point for span in base):
+    if not all(span.is_point for span in reach.base(lobe)):
         axes.append(TableAxis("base_f0", Span(0.0, 1.0), 2))
     if asked.has_image_light:
         axes.append(TableAxis("roughness", reach.roughness, 2))

@@ -17,16 +17,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.budgets.quantile import LOOKS, bounds
-from gltf_iri.budgets.samples import Points, lobes_of, points_of
+from gltf_iri.budgets.samples import Points, points_of
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.colour.spaces import Light
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.prefiltered import prefiltered_fourier
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.fresnel import f_schlick
-from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.method import METHODS, ParameterValue
-from gltf_iri.planning.reach import Reach
+from gltf_iri.planning.reach import Lobe, Reach
 
 __all__ = ["FilmErrors", "Measured"]
 
@@ -82,7 +81,7 @@ class FilmErrors:
     ) -> None:
         self.reach = reach
         self.white = white
-        self.lobes = lobes_of(reach)
+        self.lobes = reach.lobes
         self._sights: tuple[_Sight, ...] = ("one direction",)
         if has_image_light:
             self._sights = (*self._sights, "all around")

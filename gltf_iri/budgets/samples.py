@@ -17,10 +17,9 @@ from numpy.typing import NDArray
 from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.optics.facet_mean import facet_cosines, facet_mean
 from gltf_iri.optics.microfacet import N_DOT_V_MIN, alpha_ggx
-from gltf_iri.planning.film_table import Lobe
-from gltf_iri.planning.reach import Reach, Span
+from gltf_iri.planning.reach import Lobe, Reach, Span
 
-__all__ = ["Facets", "Points", "base_spans", "lobes_of", "points_of"]
+__all__ = ["Facets", "Points", "points_of"]
 
 Float64 = NDArray[np.float64]
 
@@ -74,12 +73,6 @@ class Points:
         return colours[:, 0] if self.facets is None else facet_mean(colours, self.facets.weights)
 
 
-def lobes_of(reach: Reach) -> tuple[Lobe, ...]:
-    """Return the lobes that the material has anywhere."""
-    lobes: list[Lobe] = ["dielectric"] if reach.metallic.low < 1.0 else []
-    return (*lobes, "metal") if reach.metallic.high > 0.0 else tuple(lobes)
-
-
 def points_of(
     reach: Reach, lobe: Lobe, count: int, *, from_all_around: bool = False, first: int = 0
 ) -> Points:
@@ -87,7 +80,7 @@ def points_of(
 
     from_all_around : light, whose facets depend on the roughness; else light comes from one direction.
     """
-    base, is_grey = base_spans(reach, lobe)
+    base, is_grey = reach.base(lobe), reach.is_grey(lobe)
     spans = [Span(0.0, 1.0), reach.thickness_nm, *(base[:1] if is_grey else base)]
     if from_all_around:
         spans.append(reach.roughness)
@@ -105,13 +98,6 @@ def points_of(
         seen = np.maximum(cos_theta, N_DOT_V_MIN)
         facets = Facets(*facet_cosines(seen, alpha_ggx(roughness), slopes=_SLOPES, turns=_TURNS))
     return Points(cos_theta, thickness_nm, base_f0, roughness, facets)
-
-
-def base_spans(reach: Reach, lobe: Lobe) -> tuple[tuple[Span, Span, Span], bool]:
-    """Return what each channel's base reflectance meets, and whether the channels are always equal."""
-    if lobe == "metal":
-        return reach.base_color, reach.is_metal_grey
-    return reach.dielectric_f0, reach.is_dielectric_grey
 
 
 def _recurrence(count: int, dimensions: int, first: int) -> Float64:

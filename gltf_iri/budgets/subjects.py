@@ -21,11 +21,12 @@ from gltf_iri.budgets.search import Chosen, cheapest_way, check_budget, the_trut
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.colour.spaces import Light
 from gltf_iri.errors import UsageError
-from gltf_iri.evaluation.film import Base, Evaluation, Film
+from gltf_iri.evaluation.film import Base, Evaluation, Film, base_from_ior
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.costs import Device
 from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.mirror import film_in_mirror
 
 __all__ = ["evaluate_within", "way_for_film", "way_for_mirror"]
 
@@ -73,9 +74,13 @@ def evaluate_within(
 ) -> Evaluation:
     """Return the colours of `subject` by the cheapest method that keeps `budget`; `.delta_e` is its bound.
 
+    Mirrors that are films (`gltf_iri.planning.mirror`) are computed as films; the method tells so.
+
     Raises UsageError as `way_for_film` and `evaluate`.
     """
     device = choose_backend(backend, math.prod(subject.shape), ("numpy", "numba"), "budget")
+    if isinstance(subject, Mirror):
+        subject = _film_of(subject) or subject
     if isinstance(subject, Film):
         way = way_for_film(subject, budget, device=device, white=white).way
     else:
@@ -84,6 +89,14 @@ def evaluate_within(
     taken = device if device in METHODS[method].backends else "numpy"
     done = evaluate(method, subject, white=white, backend=taken, parameters=way.parameters)
     return replace(done, delta_e=way.delta_e)
+
+
+def _film_of(mirror: Mirror) -> Film | None:
+    found = film_in_mirror(mirror.n1, mirror.n2, mirror.d2_nm, mirror.cells, mirror.host_ior)
+    if found is None:
+        return None
+    base = base_from_ior(found.base_ior)
+    return Film.of(mirror.cos_theta_h, found.thickness_nm, found.film_ior, base, found.outside_ior)
 
 
 def _choose(

@@ -12,8 +12,8 @@ from gltf_iri.cli.common import note
 if TYPE_CHECKING:
     from gltf_iri.baking.baked import BakedTable
     from gltf_iri.planning.costs import Device
-    from gltf_iri.planning.film_table import Lobe
     from gltf_iri.planning.material_plan import MaterialPlan
+    from gltf_iri.planning.reach import Lobe
     from gltf_iri.scene.load import Model
     from gltf_iri.scene.model import Environment, Scene
 

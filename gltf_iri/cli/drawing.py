@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from gltf_iri.baking.baked import BakedTable
-    from gltf_iri.planning.film_table import Lobe
     from gltf_iri.planning.material_plan import MaterialPlan
+    from gltf_iri.planning.reach import Lobe
     from gltf_iri.rendering.frame import Frame
     from gltf_iri.scene.load import Model
     from gltf_iri.scene.model import Camera, Environment, Scene

@@ -184,6 +184,8 @@ def _print(result: dict[str, Any]) -> None:
         of_range = "" if low_nm == high_nm else f" of {low_nm:g} to {high_nm:g}"
         title += f"; material {label}, {result['thickness_nm']:g} nm{of_range}, factor {result['factor']:g}"
     print_table(columns, rows, title=title)
+    if "reason" in result:
+        note(f"Computed as a film: {result['reason']}.")
     if result.get("textures_left_out"):
         left_out = ", ".join(result["textures_left_out"])
         note(f"The base is that of the material's factors alone, without {left_out}.")

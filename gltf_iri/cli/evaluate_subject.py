@@ -62,7 +62,10 @@ def from_mirror(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> 
         parameters=how.parameters,
         budget=how.budget,
     )
-    return _result(cosines, evaluation)
+    result = _result(cosines, evaluation)
+    if METHODS[evaluation.method].domain == "film":
+        result["reason"] = "a mirror of one cell in a host of its own n1 is a film of n2"
+    return result
 
 
 def from_parameters(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> dict[str, Any]:

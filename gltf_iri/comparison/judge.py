@@ -25,8 +25,8 @@ from gltf_iri.errors import AssetError, UsageError
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
-from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.reach import Lobe
 from gltf_iri.reference.film_on import FilmMethod
 from gltf_iri.rendering.film_tables import checked_tables
 from gltf_iri.rendering.frame import Frame, ShadingInputs

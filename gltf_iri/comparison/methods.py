@@ -17,8 +17,8 @@ from gltf_iri.evaluation.film import Evaluation, Film
 from gltf_iri.evaluation.khr import khr_branch_distance_ulp
 from gltf_iri.evaluation.prefiltered import prefiltered_fourier
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.method import ParameterValue
+from gltf_iri.planning.reach import Lobe
 from gltf_iri.reference.film_on import FilmMethod, Sight
 from gltf_iri.tolerances import GLSL_BRANCH_ULP
 

@@ -15,8 +15,8 @@ from gltf_iri.comparison.judge import Shot, judge
 from gltf_iri.comparison.result import Comparison
 from gltf_iri.material.material import Material
 from gltf_iri.planning.decide import complete_plans
-from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.reach import Lobe
 from gltf_iri.rendering.render import Renderer
 from gltf_iri.scene.load import Model
 from gltf_iri.scene.model import Camera, Environment, Scene

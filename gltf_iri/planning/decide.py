@@ -11,11 +11,10 @@ from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import DEFAULT_MATERIAL, Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, idle_film, verdicts_without_film
-from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.material_reach import ANY_COLOURS, material_reach, vertex_colour_spans
 from gltf_iri.planning.method import DEFAULT_METHOD, Method, find_method
-from gltf_iri.planning.reach import Reach
+from gltf_iri.planning.reach import Lobe, Reach
 from gltf_iri.planning.simplify import simplified
 from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict
 from gltf_iri.planning.verdicts import material_verdicts

@@ -6,11 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from gltf_iri.planning.reach import Span
+from gltf_iri.planning.reach import Lobe, Span
 
-__all__ = ["FilmTable", "Lobe", "Quantity", "TableAxis", "Texel"]
+__all__ = ["FilmTable", "Quantity", "TableAxis", "Texel"]
 
-Lobe = Literal["dielectric", "metal"]
 Texel = Literal["f2", "f4"]  # half or single precision
 
 # In this order wherever a table has them; every table has the first.

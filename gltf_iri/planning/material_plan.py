@@ -8,7 +8,8 @@ from typing import Any
 
 from gltf_iri.material.material import DEFAULT_MATERIAL, Material
 from gltf_iri.planning.effects import Effect
-from gltf_iri.planning.film_table import FilmTable, Lobe
+from gltf_iri.planning.film_table import FilmTable
+from gltf_iri.planning.reach import Lobe
 from gltf_iri.planning.way import Way
 
 __all__ = ["MaterialPlan"]

@@ -6,9 +6,10 @@ from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, Final
 
 from gltf_iri.planning.effects import Effect
-from gltf_iri.planning.film_table import FilmTable, Lobe, Quantity
+from gltf_iri.planning.film_table import FilmTable, Quantity
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import find_method
+from gltf_iri.planning.reach import Lobe
 
 if TYPE_CHECKING:
     from gltf_iri.scene.model import Environment, Light, Primitive, Scene

@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
-__all__ = ["Reach", "Span"]
+__all__ = ["Lobe", "Reach", "Span"]
+
+# What lies under a film.
+Lobe = Literal["dielectric", "metal"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,3 +56,17 @@ class Reach:
     is_dielectric_grey: bool = False
     is_metal_grey: bool = False
     spread_nm: Span = Span(0.0, 0.0)
+
+    @property
+    def lobes(self) -> tuple[Lobe, ...]:
+        """Those that the material has anywhere."""
+        lobes: list[Lobe] = ["dielectric"] if self.metallic.low < 1.0 else []
+        return (*lobes, "metal") if self.metallic.high > 0.0 else tuple(lobes)
+
+    def base(self, lobe: Lobe) -> tuple[Span, Span, Span]:
+        """Return what each channel's base reflectance meets."""
+        return self.base_color if lobe == "metal" else self.dielectric_f0
+
+    def is_grey(self, lobe: Lobe) -> bool:
+        """Return whether the channels of the base are certainly equal at every point."""
+        return self.is_metal_grey if lobe == "metal" else self.is_dielectric_grey

@@ -7,9 +7,9 @@ from typing import Final
 
 from gltf_iri.planning.costs import Costs
 from gltf_iri.planning.effects import Effect
-from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import DEFAULT_METHOD, find_method
+from gltf_iri.planning.reach import Lobe
 from gltf_iri.planning.way import Way
 
 __all__ = ["pruned_defines", "saved_ns_per_pixel"]

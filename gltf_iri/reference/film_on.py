@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.evaluation.film import Evaluation, Film, base_from_f0
-from gltf_iri.planning.film_table import Lobe
+from gltf_iri.planning.reach import Lobe
 from gltf_iri.reference.surface import Surface
 
 __all__ = ["Facets", "FilmMethod", "FilmOn", "Sight", "in_one_direction"]

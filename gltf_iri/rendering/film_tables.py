@@ -14,9 +14,10 @@ import numpy as np
 
 from gltf_iri.baking.baked import BakedTable
 from gltf_iri.errors import MissingCapabilityError, UsageError
-from gltf_iri.planning.film_table import FilmTable, Lobe, Quantity, TableAxis
+from gltf_iri.planning.film_table import FilmTable, Quantity, TableAxis
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.permutation import film_lobes
+from gltf_iri.planning.reach import Lobe
 from gltf_iri.rendering.uniforms import Sampled
 
 if TYPE_CHECKING:

@@ -13,9 +13,9 @@ from gltf_iri.baking.baked import BakedTable
 from gltf_iri.errors import MissingCapabilityError
 from gltf_iri.planning.decide import complete_plans
 from gltf_iri.planning.effects import Effect
-from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.permutation import plan_scene_effects
+from gltf_iri.planning.reach import Lobe
 from gltf_iri.rendering.background import BLUR, Background
 from gltf_iri.rendering.capture import Capturing
 from gltf_iri.rendering.context import renderer_name

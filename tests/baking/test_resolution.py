@@ -16,8 +16,8 @@ from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.prefiltered import prefiltered_fourier
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.facet_mean import facet_cosines, facet_mean, mean_cosine
-from gltf_iri.planning.film_table import FilmTable, Lobe
-from gltf_iri.planning.reach import Reach, Span
+from gltf_iri.planning.film_table import FilmTable
+from gltf_iri.planning.reach import Lobe, Reach, Span
 
 ONE = Span.at(1.0)
 GREY = (Span.at(0.4), Span.at(0.4), Span.at(0.4))

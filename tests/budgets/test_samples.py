@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gltf_iri.budgets.samples import lobes_of, points_of
+from gltf_iri.budgets.samples import points_of
 from gltf_iri.planning.reach import Reach, Span
 
 POINT = Span.at
@@ -62,7 +62,7 @@ def test_channels_of_grey_bases_are_equal() -> None:
     ],
 )
 def test_lobes_without_weight_are_not_measured(metallic: Span, lobes: tuple[str, ...]) -> None:
-    assert lobes_of(reach(metallic)) == lobes
+    assert reach(metallic).lobes == lobes
 
 
 def test_white_facets_stay_white() -> None:

@@ -10,6 +10,7 @@ import pytest
 import gltf_iri
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.errors import UsageError
+from gltf_iri.planning.method import method_names
 
 FILMS: dict[str, Any] = {
     "cos_theta_1": np.linspace(0.02, 1.0, 30)[:, None],
@@ -54,3 +55,13 @@ def test_cells_that_absorb_are_left_to_the_truth() -> None:
 def test_one_film_and_none_have_an_answer() -> None:
     assert gltf_iri.evaluate(budget=0.5, cos_theta_1=0.5, thickness_nm=300.0).rgb.shape == (3,)
     assert gltf_iri.evaluate(budget=0.5, cos_theta_1=np.zeros(0), thickness_nm=300.0).rgb.shape == (0, 3)
+
+
+def test_a_mirror_of_one_cell_in_its_own_medium_is_computed_as_the_film_that_it_is() -> None:
+    cosine = np.linspace(0.1, 1.0, 20)
+    found = gltf_iri.evaluate(budget=0.3, cos_theta_1=cosine, bragg=(1.3, 1.9, 80.0, 250.0, 1))
+    assert found.method in method_names("film")
+    true = gltf_iri.evaluate("yeh-spectral", cos_theta_1=cosine, bragg=(1.3, 1.9, 80.0, 250.0, 1))
+    assert delta_e_2000(found.rgb, true.rgb).max() < 1.0
+    cells = gltf_iri.evaluate(budget=0.3, cos_theta_1=cosine, bragg=(1.3, 1.9, 80.0, 250.0, 2))
+    assert cells.method in method_names("mirror")
