@@ -12,6 +12,8 @@ from gltf_iri.backends import choose_backend
 from gltf_iri.cli.common import material_label
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.mirror import ONE_CELL
 from gltf_iri.planning.way import Way
 
 if TYPE_CHECKING:
@@ -64,7 +66,7 @@ def from_mirror(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> 
     )
     result = _result(cosines, evaluation)
     if METHODS[evaluation.method].domain == "film":
-        result["reason"] = "a mirror of one cell in a host of its own n1 is a film of n2"
+        result["reason"] = ONE_CELL
     return result
 
 

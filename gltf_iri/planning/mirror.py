@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["FilmInMirror", "film_in_mirror"]
+__all__ = ["ONE_CELL", "FilmInMirror", "film_in_mirror"]
+
+ONE_CELL: Final = "a mirror of one cell in a host of its own n1 is a film of n2"
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,7 +25,6 @@ class FilmInMirror:
     film_ior: NDArray[np.float64]
     thickness_nm: NDArray[np.float64]
     base_ior: NDArray[np.float64]
-    reason: str
 
 
 def film_in_mirror(
@@ -49,5 +50,4 @@ def film_in_mirror(
         return None
     if host_ior is not None and not np.all(np.asarray(host_ior) == outside):
         return None
-    reason = "a mirror of one cell in a host of its own n1 is a film of n2"
-    return FilmInMirror(outside, inside, np.asarray(d2_nm, dtype=np.float64), outside, reason)
+    return FilmInMirror(outside, inside, np.asarray(d2_nm, dtype=np.float64), outside)
