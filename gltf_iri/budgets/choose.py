@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from gltf_iri.backends import choose_backend
@@ -72,7 +72,12 @@ def choose_way(reach: Reach, asked: Asked, subject: str, errors: FilmErrors | No
     workloads = [film_workload(reach, lobe) for lobe in errors.lobes]
     candidates = direct_candidates("film", asked.device, workloads, has_spread=asked.has_spread)
     if budget == 0.0:
-        return the_truth(candidates)
+        found = the_truth(candidates)
+        if asked.device == "glsl" and asked.has_image_light and reach.roughness.high > 0.0:
+            return replace(
+                found, reason=f"{found.reason}; rough surfaces meet image light at one mean cosine"
+            )
+        return found
     if asked.device == "glsl" and not resolves_in_glsl(reach):
         candidates = tuple(each for each in candidates if not METHODS[each.method or ""].is_truth)
     if asked.bare_at_grazing is not None and not asked.is_film_needed:
