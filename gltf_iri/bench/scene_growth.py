@@ -22,10 +22,10 @@ from gltf_iri.bench.scenes import (
     BUDGET,
     Variant,
     draw_variant,
-    within_name,
     interleaved_ms,
     median_ratio,
     variants_of,
+    within_name,
 )
 from gltf_iri.bench.twenty import FILMED, TWENTY, scene_files
 from gltf_iri.planning.decide import plan_materials

@@ -21,8 +21,8 @@ from gltf_iri.budgets.plans import plans_within
 from gltf_iri.comparison.run import compare
 from gltf_iri.errors import UsageError
 from gltf_iri.planning.decide import plan_materials
-from gltf_iri.planning.film_table import Lobe
 from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.reach import Lobe
 from gltf_iri.rendering.frame import Frame
 from gltf_iri.rendering.render import Renderer
 from gltf_iri.scene.choose import choose_camera, choose_environment
@@ -149,7 +149,7 @@ def variants_of(
     )
     if not with_budget:
         return published
-    plans = planswithin_name(
+    plans = plans_within(
         model,
         model.scene(),
         BUDGET,

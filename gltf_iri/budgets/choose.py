@@ -74,9 +74,7 @@ def choose_way(reach: Reach, asked: Asked, subject: str, errors: FilmErrors | No
     if budget == 0.0:
         found = the_truth(candidates)
         if asked.device == "glsl" and asked.has_image_light and reach.roughness.high > 0.0:
-            return replace(
-                found, reason=f"{found.reason}; rough surfaces meet image light at one mean cosine"
-            )
+            return replace(found, reason=f"{found.reason}; rough surfaces meet image light at a mean cosine")
         return found
     if asked.device == "glsl" and not resolves_in_glsl(reach):
         candidates = tuple(each for each in candidates if not METHODS[each.method or ""].is_truth)
