@@ -1,4 +1,4 @@
-"""Fills tables from the truth: `spectral`, for half precision `fourier` at its finest.
+"""Fills tables from the truth, for half precision from the series that stands for it.
 
 Means over facets and over thicknesses are linear in the film's colour. So the truth is computed once on a
 grid of cosines and thicknesses, and matrices along both make of it the texels of every roughness and spread.
@@ -19,7 +19,7 @@ from gltf_iri.baking.cache import TableCache
 from gltf_iri.baking.facet_matrix import chebyshev_cosines, facet_moments, terms_for, to_coefficients
 from gltf_iri.baking.lookup import axis_values
 from gltf_iri.evaluation.film import Film, base_from_f0
-from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.evaluation.film_truth import film_truth
 from gltf_iri.planning.costs import shipped_costs
 from gltf_iri.planning.film_table import FilmTable, Quantity
 from gltf_iri.planning.material_plan import MaterialPlan
@@ -30,10 +30,6 @@ __all__ = ["bake", "bake_plans", "filling_ns", "spread_matrix", "spread_thicknes
 Float64 = NDArray[np.float64]
 
 _FILMS_AT_ONCE: Final = 1 << 15  # an interrupt waits for so many truths at most
-
-# Half precision rounds by 2⁻¹² of the value: the series, whose own table errs by 6e-7, stands there for the
-# truth, several times as fast.
-_SERIES: Final = {"tolerance": 1e-9}
 
 # What means over facets may err by, about: less than half precision rounds, and than single precision is for.
 _FACET_MAX_ERROR: Final = {"f2": 1e-5, "f4": 1e-6}
@@ -142,9 +138,8 @@ def _texels(table: FilmTable, white: str) -> Float64:
     def truth(cosines: Float64, at_nm: Float64, f0: Float64) -> Float64:
         """Return (cosines, thicknesses, bases, 3)."""
         film = Film.of(cosines[:, None, None], at_nm[:, None], table.film_ior, base_from_f0(f0))
-        if table.texel == "f2":
-            return evaluate("fourier", film, white=white, parameters=_SERIES).rgb
-        return evaluate("spectral", film, white=white).rgb
+        # Half precision rounds by 2⁻¹² of the value, the series errs by 6e-7.
+        return film_truth(film, white, is_exact=table.texel == "f4")
 
     more_cosines = np.zeros(0)
     if roughness.any():

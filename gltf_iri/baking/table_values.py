@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
-from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,18 +11,12 @@ from numpy.typing import NDArray
 from gltf_iri.baking.facet_matrix import chebyshev_cosines, facet_moments, terms_for, to_coefficients
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Film, base_from_f0
-from gltf_iri.evaluation.prefiltered import prefiltered_fourier
-from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.evaluation.film_truth import film_truth, mean_film_truth
 from gltf_iri.planning.film_table import Quantity
 
 __all__ = ["Places", "TableValues"]
 
 Float64 = NDArray[np.float64]
-
-# Of the series that stands for the truth: with its own table's error CIEDE2000 of 5e-5 at most over films of
-# 0.1 to 20 µm on dielectrics and metals, 2e-5 at p95. Averages over thickness need less.
-_SERIES: Final = {"tolerance": 1e-9}
-_TOLERANCE: Final = 1e-7
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +46,7 @@ class TableValues:
 
     What several calls have in common is computed once.
 
-    is_exact : whether the truth itself is asked, or `fourier`, which is faster.
+    is_exact : whether the truth itself is asked, or the series that stands for it.
     facet_max_error : what means over facets may err by, about.
     """
 
@@ -102,10 +95,8 @@ class TableValues:
         base = base_from_f0(places.base_f0[:, None])
         film = Film.of(cos_theta, places.thickness_nm, self._film_ior, base)
         if not places.spread_nm.any():
-            if self._is_exact:
-                return evaluate("spectral", film, white=self._white).rgb
-            return evaluate("fourier", film, white=self._white, parameters=_SERIES).rgb
-        return prefiltered_fourier(film, places.spread_nm, self._white, _TOLERANCE)
+            return film_truth(film, self._white, is_exact=self._is_exact)
+        return mean_film_truth(film, places.spread_nm, self._white)
 
 
 def _rows(places: Places, rows: NDArray[np.intp]) -> Places:

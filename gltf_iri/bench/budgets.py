@@ -22,6 +22,7 @@ from gltf_iri.budgets.errors import FilmErrors
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0
+from gltf_iri.evaluation.film_truth import film_truth
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.planning.film_table import FilmTable
@@ -195,10 +196,9 @@ class _Truth:
             film = Film.of(cosine, _drawn(g, reach.thickness_nm), reach.film_ior, base_from_f0(base_f0))
             self._films[lobe] = film
             self._bare[lobe] = f_schlick(base_f0, cosine[:, None])
-            # The truth itself where it takes no minutes; else the series to 1e-9, within ΔE 4e-5 of it.
+            # The truth itself where it takes no minutes.
             is_fast = bool(np.all(base_f0 == base_f0[:, :1])) and reach.thickness_nm.high < 1000.0
-            method, parameters = ("spectral", {}) if is_fast else ("fourier", {"tolerance": 1e-9})
-            self._truth[lobe] = self._on(lobe, evaluate(method, film, parameters=parameters).rgb)
+            self._truth[lobe] = self._on(lobe, film_truth(film, "D65", is_exact=is_fast))
 
     def of_method(self, method: str | None, parameters: Mapping[str, ParameterValue]) -> float:
         """Return the ΔE of a method, or of no film."""

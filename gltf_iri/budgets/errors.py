@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Final, Literal
 
 import numpy as np
@@ -21,7 +20,7 @@ from gltf_iri.budgets.samples import Points, points_of
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.colour.spaces import Light
 from gltf_iri.evaluation.film import Film
-from gltf_iri.evaluation.prefiltered import prefiltered_fourier
+from gltf_iri.evaluation.film_truth import film_truth, mean_film_truth
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.planning.method import METHODS, ParameterValue
@@ -36,9 +35,8 @@ _Sight = Literal["one direction", "all around", "spread"]
 # The film's colours (n, 3) at n points of a lobe.
 Colours = Callable[[Lobe, Points], Float64]
 
-# Where a budget is far above what it errs, this series stands for the truth, at a tenth of its time: it is
-# held against the truth at a few points, and what it errs there at most is added to every error.
-_SERIES: Final[Mapping[str, ParameterValue]] = MappingProxyType({"tolerance": 1e-9})
+# Where a budget is far above what it errs, a series stands for the truth, at a tenth of its time: it is held
+# against the truth at a few points, and what it errs there at most is added to every error.
 _SERIES_POINTS: Final = 32
 _SEED: Final = 5
 _SERIES_SHARE: Final = 0.02  # of a budget
@@ -149,27 +147,25 @@ class FilmErrors:
             points = points_of(self.reach, lobe, count, from_all_around=sight == "all around")
             films = points.facet_films(self.reach.film_ior)
             bare = points.mean(self._bare(lobe, points, films.cos_theta_1))
-            film = self._spread_truth(films) if sight == "spread" else self._film_truth(films, is_series)
+            if sight == "spread":
+                film = self._spread_truth(films)
+            else:
+                film = film_truth(films, self.white, is_exact=not is_series)
             truth = self._on(bare, points.mean(film))
             doubt = self._series_err(lobe) if is_series else 0.0
             self._places[key] = _Places(lobe, points, bare, truth, doubt)
         return self._places[key]
 
-    def _film_truth(self, films: Film, is_series: bool) -> Float64:
-        if is_series:
-            return evaluate("fourier", films, white=self.white, parameters=_SERIES).rgb
-        return evaluate("spectral", films, white=self.white).rgb
-
     def _spread_truth(self, films: Film) -> Float64:
         """Return the truth's mean over thicknesses, of deviations up to the usual one."""
         share = np.random.default_rng(_SEED).uniform(size=films.shape[0])
         spread_nm = share.reshape(-1, *[1] * (len(films.shape) - 1)) * self.reach.spread_nm.low
-        return prefiltered_fourier(films, spread_nm, "E" if self.white == "E" else "D65", 1e-7)
+        return mean_film_truth(films, spread_nm, "E" if self.white == "E" else "D65")
 
     def _series_err(self, lobe: Lobe) -> float:
         if lobe not in self._series_errs:
             films = points_of(self.reach, lobe, _SERIES_POINTS).facet_films(self.reach.film_ior)
-            by_series, truth = (self._film_truth(films, is_series) for is_series in (True, False))
+            by_series, truth = (film_truth(films, self.white, is_exact=each) for each in (False, True))
             self._series_errs[lobe] = float(delta_e_2000(by_series, truth).max())
         return self._series_errs[lobe]
 
