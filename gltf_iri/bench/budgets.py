@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from gltf_iri.baking.fill import bake
 from gltf_iri.baking.lookup import look_up
-from gltf_iri.budgets.candidates import Candidate, direct_candidates, film_workload, without_film
+from gltf_iri.budgets.candidates import Candidate, direct_candidates, reach_workload, without_film
 from gltf_iri.budgets.choose import Asked, choose_way
 from gltf_iri.budgets.errors import FilmErrors
 from gltf_iri.colour.difference import delta_e_2000
@@ -96,7 +96,7 @@ def measure_budgets(
     for number, (name, reach) in enumerate(reaches):
         truth = _Truth(reach, np.random.default_rng(number))
         errors = FilmErrors(reach, has_image_light=False)
-        workloads = [film_workload(reach, lobe) for lobe in reach.lobes]
+        workloads = [reach_workload(reach, lobe) for lobe in reach.lobes]
         candidates = (without_film("glsl", workloads), *direct_candidates("film", "glsl", workloads))
         for budget in budgets:
             yield _row(name, reach, budget, errors, candidates, truth)

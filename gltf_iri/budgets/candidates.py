@@ -15,11 +15,14 @@ from gltf_iri.planning.reach import Lobe, Reach
 from gltf_iri.planning.settings import ACCURACY_SETTINGS, settings_of, with_defaults
 from gltf_iri.planning.way import AVERAGED, NO_FILM, Way
 
-__all__ = ["Candidate", "direct_candidates", "film_workload", "ns_by", "resolves_in_glsl", "table_ns"]
-__all__ += ["without_film"]
+__all__ = ["Candidate", "direct_candidates", "film_workload", "mirror_workload", "ns_by", "reach_workload"]
+__all__ += ["resolves_in_glsl", "table_ns", "without_film"]
 
 # From here on fringes are so narrow that films cost what the set "thick" of the map does.
 _THICK_NM: Final = 3000.0
+
+# What the names of its sets of mirrors begin with; the number of cells follows.
+_MIRRORS: Final = "mirrors-"
 
 # The twin of the truth in GLSL has a rule of fixed length, which does not resolve longer path differences.
 _GLSL_TRUTH_DEGREE: Final = 512
@@ -73,13 +76,23 @@ def without_film(device: Device, workloads: Sequence[str]) -> Candidate:
     return Candidate(None, {}, ns or 0.0)
 
 
-def film_workload(reach: Reach, lobe: Lobe) -> str:
+def film_workload(thickest_nm: float, *, is_grey: bool) -> str:
+    """Return the set of the map of costs whose films are like these; `is_grey` : their base."""
+    return "thick" if thickest_nm > _THICK_NM else "films" if is_grey else "metals"
+
+
+def reach_workload(reach: Reach, lobe: Lobe) -> str:
     """Return the set of the map of costs whose films are like those over `lobe`."""
-    if reach.thickness_nm.high > _THICK_NM:
-        return "thick"
     base = reach.base(lobe)
     is_grey = reach.is_grey(lobe) or (base[0].is_point and base[0] == base[1] == base[2])
-    return "films" if is_grey else "metals"
+    return film_workload(reach.thickness_nm.high, is_grey=is_grey)
+
+
+def mirror_workload(cells: float) -> str:
+    """Return the set of the map of costs whose mirrors have about as many cells."""
+    named = {name: name.removeprefix(_MIRRORS) for name in shipped_costs().ns["numpy"]}
+    known = {name: int(number) for name, number in named.items() if number != name}
+    return min(known, key=lambda name: abs(math.log(known[name] / cells)))
 
 
 def resolves_in_glsl(reach: Reach) -> bool:

@@ -9,7 +9,7 @@ from gltf_iri.backends import choose_backend
 from gltf_iri.budgets.candidates import (
     Candidate,
     direct_candidates,
-    film_workload,
+    reach_workload,
     resolves_in_glsl,
     table_ns,
     without_film,
@@ -69,7 +69,7 @@ def choose_way(reach: Reach, asked: Asked, subject: str, errors: FilmErrors | No
         bare_at_grazing=1.0 if asked.bare_at_grazing is None else asked.bare_at_grazing,
         has_spread=asked.has_spread,
     )
-    workloads = [film_workload(reach, lobe) for lobe in errors.lobes]
+    workloads = [reach_workload(reach, lobe) for lobe in errors.lobes]
     candidates = direct_candidates("film", asked.device, workloads, has_spread=asked.has_spread)
     if budget == 0.0:
         found = the_truth(candidates)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.backends import choose_backend
-from gltf_iri.budgets.candidates import Candidate, direct_candidates
+from gltf_iri.budgets.candidates import Candidate, direct_candidates, film_workload, mirror_workload
 from gltf_iri.budgets.errors import Measured
 from gltf_iri.budgets.quantile import LOOKS, SHARE, bounds
 from gltf_iri.budgets.search import Chosen, cheapest_way, check_budget, the_truth
@@ -34,11 +34,7 @@ Float64 = NDArray[np.float64]
 Rows = tuple[NDArray[np.intp], ...]
 Subject = TypeVar("Subject", Film, Mirror)
 
-_THICK_NM: Final = 3000.0
 _GOLDEN: Final = 0.5 * (math.sqrt(5.0) - 1.0)
-
-# The numbers of cells that the map of costs knows.
-_MIRROR_CELLS: Final = (5, 10, 20, 50, 200)
 
 # The truth of a mirror takes milliseconds.
 _MIRROR_LOOKS: Final = LOOKS[:2]
@@ -51,11 +47,9 @@ def way_for_film(
 
     Raises UsageError for a budget below 0 or NaN, and where none keeps it.
     """
-    is_thick = bool(np.any(film.thickness_nm > _THICK_NM))
     is_grey = bool(np.all(film.base.index == film.base.index[..., :1]))
-    candidates = direct_candidates(
-        "film", device, ["thick" if is_thick else "films" if is_grey else "metals"]
-    )
+    workload = film_workload(float(film.thickness_nm.max(initial=0.0)), is_grey=is_grey)
+    candidates = direct_candidates("film", device, [workload])
     return _choose(film, _film_rows, candidates, budget, white, LOOKS, "these films")
 
 
@@ -63,9 +57,7 @@ def way_for_mirror(
     mirror: Mirror, budget: float, *, device: Device = "numpy", white: str | Light = "D65"
 ) -> Chosen:
     """Return the cheapest method for the colours of `mirror`, as `way_for_film` does."""
-    most = math.log(float(mirror.cells.max(initial=1)))
-    nearest = min(_MIRROR_CELLS, key=lambda cells: abs(math.log(cells) - most))
-    candidates = direct_candidates("mirror", device, [f"mirrors-{nearest}"])
+    candidates = direct_candidates("mirror", device, [mirror_workload(mirror.cells.max(initial=1))])
     return _choose(mirror, _mirror_rows, candidates, budget, white, _MIRROR_LOOKS, "these mirrors")
 
 
