@@ -21,6 +21,7 @@ from gltf_iri.baking.table_errors import AxisErrors, Judged, p95_below
 from gltf_iri.baking.table_values import Places, TableValues
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
+from gltf_iri.optics.dfg import dfg_terms
 from gltf_iri.optics.facet_mean import mean_cosine
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.planning.film_table import FilmTable, TableAxis, Texel
@@ -60,6 +61,7 @@ def fit_table(
     white: White = "D65",
     has_image_light: bool,
     has_spread: bool,
+    bare_at_grazing: float = 1.0,
 ) -> FilmTable | None:
     """Return the smallest table found that keeps `budget`; None where none up to BYTES_MAX does.
 
@@ -71,10 +73,11 @@ def fit_table(
     budget : CIEDE2000, > 0; raises UsageError for others.
     has_image_light : whether means over facets count.
     has_spread : whether the thickness is averaged within a pixel.
+    bare_at_grazing : what the dielectric without its film reflects at grazing angles: its specular weight.
     """
     if not budget > 0.0:
         raise UsageError("A table errs: its budget must be greater than 0.")
-    fit = _Fit(reach, lobe, budget, white, has_image_light, has_spread)
+    fit = _Fit(reach, lobe, budget, white, has_image_light, has_spread, bare_at_grazing)
     axes = fit.axes()
     return None if axes is None else fit.checked(*axes)
 
@@ -89,6 +92,7 @@ class _Fit:
     white: White
     has_image_light: bool
     has_spread: bool
+    bare_at_grazing: float
 
     def axes(self) -> tuple[tuple[TableAxis, ...], Texel] | None:
         """Return the axes that the places of the first kind ask for; None where the table is too large."""
@@ -204,8 +208,18 @@ class _Fit:
         return judged
 
     def _judge(self, values: TableValues, read: Places, true: Places) -> Judged:
-        bare = f_schlick(true.base_f0[:, None], true.cos_theta[..., None])
-        return Judged(values, read, values(true), np.asarray(bare), self.reach.factor.high)
+        return Judged(values, read, values(true), self._bare(true), self.reach.factor.high)
+
+    def _bare(self, places: Places) -> Float64:
+        """Return what the surface without a film reflects, (n, m, 3): where there are facets, their mean."""
+        grazing = f_schlick(0.0, places.cos_theta)
+        if places.roughness.any():
+            a, b = dfg_terms(places.cos_theta, places.roughness)
+            grazing = np.where(places.roughness > 0.0, b / (a + b), grazing)
+        # base_f0 has the weight in it: weight · Schlick(F0) reaches the weight.
+        most = self.bare_at_grazing if self.lobe == "dielectric" else 1.0
+        base, grazing = places.base_f0[:, None], grazing[..., None]
+        return np.asarray(base + (most - base) * grazing)
 
     def _places(
         self,

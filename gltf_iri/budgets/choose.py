@@ -124,6 +124,7 @@ def _tables(errors: FilmErrors, asked: Asked, floor: float) -> TableOffer:
                 white="D65" if asked.white == "D65" else "E",
                 has_image_light=asked.has_image_light,
                 has_spread=asked.has_spread,
+                bare_at_grazing=1.0 if asked.bare_at_grazing is None else asked.bare_at_grazing,
             )
             if table is None:
                 return None

@@ -148,3 +148,24 @@ def test_what_no_table_holds_has_none() -> None:
 def test_a_table_has_a_budget(budget: float) -> None:
     with pytest.raises(UsageError, match="greater than 0"):
         fit_table(SUZANNE, "dielectric", budget, has_image_light=False, has_spread=False)
+
+
+@pytest.mark.parametrize("weight", [1.0, 0.2])
+def test_a_weak_film_is_judged_with_what_the_bare_surface_sends(weight: float) -> None:
+    # Nearly black: without the facets' own grazing share, or the weight, the film would be seen less well.
+    black = (Span.at(0.002), Span.at(0.002), Span.at(0.002))
+    reach = replace(SUZANNE, film_ior=1.5, factor=Span.at(0.3), roughness=Span(0.3, 0.9), dielectric_f0=black)
+    table = fit_table(
+        reach, "dielectric", 0.3, has_image_light=True, has_spread=False, bare_at_grazing=weight
+    )
+    assert table is not None
+    g = np.random.default_rng(21)
+    n_dot_v, roughness = g.uniform(size=300), g.uniform(0.3, 0.9, 300)
+    cosines, weights = facet_cosines(np.maximum(n_dot_v, 1e-4), roughness**2, slopes=24, turns=8)
+    films = Film.of(cosines, 400.0, 1.5, base_from_f0(np.full(3, 0.002)))
+    truth = facet_mean(evaluate("fourier", films, parameters={"tolerance": 1e-6}).rgb, weights)
+    plain = 0.002 + (weight - 0.002) * (1.0 - cosines[..., None]) ** 5
+    bare = 0.7 * facet_mean(np.repeat(plain, 3, axis=-1), weights)
+    found = look_up(bake(table), n_dot_v, 400.0, np.full(3, 0.002), roughness=roughness)
+    error = np.quantile(delta_e_2000(bare + 0.3 * found, bare + 0.3 * truth), 0.95)
+    assert error <= table.delta_e <= 0.3
