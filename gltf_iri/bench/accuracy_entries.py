@@ -19,7 +19,7 @@ from gltf_iri.bench.timing import interleaved_ns
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.method import METHODS, Domain, method_names
+from gltf_iri.planning.method import METHODS, method_names, truth_of
 from gltf_iri.planning.settings import ACCURACY_SETTINGS, Settings, settings_of, with_defaults
 from gltf_iri.planning.way import Way
 
@@ -77,8 +77,7 @@ def backends() -> tuple[Backend, ...]:
 
 def true_colours(subject: Film | Mirror) -> Truth:
     """Return the truth of `subject`, evaluated once."""
-    domain: Domain = "mirror" if isinstance(subject, Mirror) else "film"
-    name = next(each for each in method_names(domain) if METHODS[each].is_truth)
+    name = truth_of("mirror" if isinstance(subject, Mirror) else "film")
     start = time.perf_counter()
     rgb = evaluate(name, subject, white=WHITE, backend="numpy").rgb
     return Truth(name, rgb, time.perf_counter() - start)

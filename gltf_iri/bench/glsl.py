@@ -12,7 +12,7 @@ from gltf_iri.bench.mirror_set import mirror_set
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.method import METHODS, Domain, method_names
+from gltf_iri.planning.method import METHODS, Domain, method_names, truth_of
 from gltf_iri.planning.settings import Settings, settings_of, with_defaults
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.rendering.timing import time_twins
@@ -68,5 +68,4 @@ def _measure(
 
 
 def _truth(subject: Film | Mirror) -> str:
-    domain: Domain = "mirror" if isinstance(subject, Mirror) else "film"
-    return next(name for name in method_names(domain) if METHODS[name].is_truth)
+    return truth_of("mirror" if isinstance(subject, Mirror) else "film")

@@ -14,7 +14,7 @@ from gltf_iri.bench.mirror_set import LOW_CONTRAST_CELLS, MIRROR_CELLS, low_cont
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.landmarks import ROOT_FINDERS
-from gltf_iri.planning.method import METHODS, method_names
+from gltf_iri.planning.method import METHODS, method_names, truth_of
 from gltf_iri.planning.settings import Settings
 
 __all__ = ["MIRROR_ROUNDS", "MIRROR_WORKLOADS", "RATIO_TO", "landmark_parts", "measure_mirrors"]
@@ -36,7 +36,7 @@ def measure_mirrors(
     The truth is slow: its time is that of the one run that the others are judged by.
     """
     mirror = MIRROR_WORKLOADS[workload]()
-    truth_by = next(name for name in method_names("mirror") if METHODS[name].is_truth)
+    truth_by = truth_of("mirror")
     start = time.perf_counter_ns()
     truth = evaluate(truth_by, mirror, white=WHITE, backend="numpy").rgb
     truth_ns = (time.perf_counter_ns() - start) / len(truth)

@@ -23,7 +23,8 @@ from gltf_iri.budgets.choose import way_for_films
 from gltf_iri.budgets.subjects import way_for_film
 from gltf_iri.colour.spaces import WhiteName
 from gltf_iri.errors import UsageError
-from gltf_iri.planning.method import DEFAULT_METHOD, Method, ParameterValue, find_method
+from gltf_iri.evaluation.registry import checked_parameters
+from gltf_iri.planning.method import DEFAULT_METHOD, ParameterValue, find_method
 from gltf_iri.planning.reach import Span
 from gltf_iri.planning.way import Way
 
@@ -126,7 +127,7 @@ def evaluate_array(
         len(rows),
         chosen.name if way is None or way.method is None else way.method,
         tables={} if way is None else {table.lobe: bake(table, white, cache=cache) for table in way.tables},
-        parameters=_checked(chosen, parameters) if way is None else way.parameters,
+        parameters=checked_parameters(chosen, parameters) if way is None else way.parameters,
         white=white,
         backend=backend,
     )
@@ -164,14 +165,3 @@ def _way(films: ArrayFilms, rows: Rows, spans: Mapping[str, Span], budget: float
     (lobe,) = films.bases  # a material's films have a reach
     device = choose_backend("auto", len(rows), ("numpy", "numba"), "table")
     return way_for_film(films.film(block, lobe), budget, device=device, white=white).way
-
-
-def _checked(method: Method, given: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
-    """Return all parameters of `method`; UsageError where it has none so called or not of such a value."""
-    known = {
-        each.name: each.checked(given.get(each.name, each.default), method.name) for each in method.parameters
-    }
-    unknown = set(given) - set(known)
-    if unknown:
-        raise UsageError(f"The method '{method.name}' has no parameter '{min(unknown)}'.")
-    return known

@@ -25,7 +25,7 @@ from gltf_iri.evaluation.film import Base, Evaluation, Film, base_from_ior
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.costs import Device
-from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.method import METHODS, truth_of
 from gltf_iri.planning.mirror import film_in_mirror
 
 __all__ = ["evaluate_within", "way_for_film", "way_for_mirror"]
@@ -103,13 +103,13 @@ def _choose(
     if check_budget(budget) == 0.0:
         return the_truth(candidates)
     count = math.prod(subject.shape)
-    truth = next(each.method for each in candidates if each.method and METHODS[each.method].is_truth)
+    truth = truth_of("mirror" if isinstance(subject, Mirror) else "film")
     seen: dict[int, tuple[Subject, Float64]] = {}
 
     def look(points: int) -> tuple[Subject, Float64]:
         if points not in seen:
             some = rows_of(subject, _spread_rows(subject.shape, min(points, count)))
-            seen[points] = some, evaluate(str(truth), some, white=white).rgb
+            seen[points] = some, evaluate(truth, some, white=white).rgb
         return seen[points]
 
     def measure(candidate: Candidate, allowed: float) -> Measured:

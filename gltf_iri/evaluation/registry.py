@@ -28,9 +28,9 @@ from gltf_iri.evaluation.spectral import evaluate_spectral
 from gltf_iri.evaluation.spectral_grid import evaluate_spectral_grid
 from gltf_iri.evaluation.yeh_grid import evaluate_yeh_grid
 from gltf_iri.evaluation.yeh_spectral import evaluate_yeh_spectral
-from gltf_iri.planning.method import ParameterValue, find_method
+from gltf_iri.planning.method import Method, ParameterValue, find_method
 
-__all__ = ["EVALUATORS", "Evaluator", "evaluate"]
+__all__ = ["EVALUATORS", "Evaluator", "checked_parameters", "evaluate"]
 
 # evaluator(film or mirror, white, **parameters, and `backend` where the method has more than one)
 Evaluator = Callable[..., Evaluation]
@@ -74,15 +74,20 @@ def evaluate(
     descriptor = find_method(method, "mirror" if isinstance(subject, Mirror) else "film")
     if not isinstance(white, Light) and white not in WHITES:
         raise UsageError(f"There is no white '{white}'; choose one of: {', '.join(WHITES)}.")
-    known = {parameter.name: parameter for parameter in descriptor.parameters}
-    for name in parameters:
-        if name not in known:
-            has = f"; it has {', '.join(known)}" if known else ", nor any other"
-            raise UsageError(f"The method '{method}' has no parameter '{name}'{has}.")
-    values = {name: each.checked(parameters.get(name, each.default), method) for name, each in known.items()}
+    values = checked_parameters(descriptor, parameters)
     count = int(np.prod(subject.shape, dtype=np.intp))
     chosen = choose_backend(backend, count, descriptor.backends, method)
     arguments: dict[str, Any] = dict(values)
     if len(descriptor.backends) > 1:
         arguments["backend"] = chosen
     return replace(EVALUATORS[method](subject, white, **arguments), backend=chosen, parameters=values)
+
+
+def checked_parameters(method: Method, given: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
+    """Return all parameters of `method`; UsageError where it has none so called or not of such a value."""
+    known = {parameter.name: parameter for parameter in method.parameters}
+    for name in given:
+        if name not in known:
+            has = f"; it has {', '.join(known)}" if known else ", nor any other"
+            raise UsageError(f"The method '{method.name}' has no parameter '{name}'{has}.")
+    return {name: each.checked(given.get(name, each.default), method.name) for name, each in known.items()}

@@ -15,7 +15,7 @@ from gltf_iri.backends import Backend
 from gltf_iri.errors import UsageError
 
 __all__ = ["DEFAULT_METHOD", "DEFAULT_MIRROR_METHOD", "METHODS", "Domain", "Method", "Parameter"]
-__all__ += ["ParameterValue", "find_method", "method_names", "parameters_text"]
+__all__ += ["ParameterValue", "find_method", "method_names", "parameters_text", "truth_of"]
 
 DEFAULT_METHOD: Final = "khr-guarded"
 DEFAULT_MIRROR_METHOD: Final = "yeh-spectral"
@@ -266,6 +266,11 @@ METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (*_FILM_MET
 def method_names(domain: Domain) -> tuple[str, ...]:
     """Return the names of the methods for films, or of those for mirrors."""
     return tuple(method.name for method in METHODS.values() if method.domain == domain)
+
+
+def truth_of(domain: Domain) -> str:
+    """Return the name of the method that all others are judged by."""
+    return next(name for name in method_names(domain) if METHODS[name].is_truth)
 
 
 def parameters_text(parameters: Mapping[str, ParameterValue]) -> str:
