@@ -20,7 +20,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.baking.film_rows import ROWS_AT_ONCE
+from gltf_iri.arrays.film_rows import ROWS_AT_ONCE
 from gltf_iri.bench.colour_rows import WHITE
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.errors import UsageError

@@ -17,8 +17,8 @@ from gltf_iri.cli.evaluate_subject import (
 )
 
 if TYPE_CHECKING:
-    from gltf_iri.budgets.array_films import ArrayFilms
-    from gltf_iri.budgets.evaluate_array import ArrayReport
+    from gltf_iri.arrays.evaluate_array import ArrayReport
+    from gltf_iri.arrays.films import ArrayFilms
     from gltf_iri.evaluation.film import Base
 
 __all__ = ["DEFAULT_COLUMNS", "array_to_array"]
@@ -48,8 +48,8 @@ def array_to_array(
     as_json: bool,
 ) -> None:
     """Evaluate the rows of `source` into `out` and tell how; `given` are the options that describe a film."""
+    from gltf_iri.arrays.evaluate_array import evaluate_array, steps_of_array
     from gltf_iri.baking.cache import TableCache
-    from gltf_iri.budgets.evaluate_array import evaluate_array, steps_of_array
     from gltf_iri.colour.spaces import WHITES
     from gltf_iri.errors import UsageError
 
@@ -85,7 +85,7 @@ def _films(
     columns: tuple[str, ...], file: Path | None, material: str | None, given: dict[str, Any]
 ) -> ArrayFilms:
     """Return what the rows are films of; click.UsageError where a column and an option say the same."""
-    from gltf_iri.budgets.array_films import ArrayFilms, lobe_of
+    from gltf_iri.arrays.films import ArrayFilms, lobe_of
 
     if given["bragg"] is not None or given["host_ior"] is not None:
         raise click.UsageError("--in reads films; a Bragg mirror is evaluated at --cos")
@@ -133,7 +133,7 @@ def _base(given: dict[str, Any]) -> Base:
 def _films_of_material(
     columns: tuple[str, ...], file: Path, name: str | None, given: dict[str, Any]
 ) -> ArrayFilms:
-    from gltf_iri.budgets.array_films import films_of_material
+    from gltf_iri.arrays.films import films_of_material
     from gltf_iri.scene.load import load
 
     for option, value in given.items():

@@ -145,7 +145,7 @@ def from_file(
 
 def _way_of(material: Material, index: int, count: int, how: How, thickness_nm: float | None) -> Way:
     """Return the cheapest method within the budget, at all angles, for the material without its textures."""
-    from gltf_iri.budgets.array_films import films_of_material, reach_of_films
+    from gltf_iri.arrays.films import films_of_material, reach_of_films
     from gltf_iri.budgets.choose import Asked, choose_way
     from gltf_iri.errors import UsageError
 

@@ -16,8 +16,8 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 
 # From the door down to the bytes: a folder may import those after it, never those before it.
 ROAD = (
-    *("cli", "gallery", "bench", "comparison", "rendering", "reference", "budgets", "baking", "evaluation"),
-    *("planning", "scene", "material", "asset"),
+    *("cli", "gallery", "bench", "comparison", "rendering", "reference", "arrays", "budgets", "baking"),
+    *("evaluation", "planning", "scene", "material", "asset"),
 )
 # Open to every folder; these may import each other and nothing of the road.
 GROUND = {"optics", "colour", "compiled", "backends", "errors", "interrupts", "tolerances", "resources"}
@@ -51,8 +51,8 @@ OPENERS = {
     "rendering/source.py",  # the program's own shaders
     "colour/observer.py",  # the program's own tables
     "compiled/loops.py",  # the sources of compiled loops, to know their machine code by
-    "baking/memory.py",  # what Linux says of the process
-    "baking/stream.py",  # keeps room on the disk for the array that whole_files.py hands it
+    "arrays/memory.py",  # what Linux says of the process
+    "arrays/stream.py",  # keeps room on the disk for the array that whole_files.py hands it
     "samples/collection.py",  # looks at the index of an earlier collection
     "baking/cache.py",  # tables that it wrote itself, and the sources that filled them
     "planning/costs.py",  # the program's own map of costs

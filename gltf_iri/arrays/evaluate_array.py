@@ -12,13 +12,13 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.arrays.film_rows import column_spans, open_rows, span_steps
+from gltf_iri.arrays.films import ArrayFilms, FilmColours, reach_of_films
+from gltf_iri.arrays.memory import PeakMemory
+from gltf_iri.arrays.stream import THREADS, check_out, stream_colours, stream_steps
 from gltf_iri.backends import choose_backend
 from gltf_iri.baking.cache import TableCache
 from gltf_iri.baking.fill import bake
-from gltf_iri.baking.film_rows import column_spans, open_rows, span_steps
-from gltf_iri.baking.memory import PeakMemory
-from gltf_iri.baking.stream import THREADS, check_out, stream_colours, stream_steps
-from gltf_iri.budgets.array_films import ArrayFilms, FilmColours, reach_of_films
 from gltf_iri.budgets.choose import way_for_films
 from gltf_iri.budgets.subjects import way_for_film
 from gltf_iri.colour.spaces import WhiteName

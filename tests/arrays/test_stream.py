@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gltf_iri.baking import film_rows
-from gltf_iri.baking.film_rows import column_spans, open_rows
-from gltf_iri.baking.stream import check_out, stream_colours
+from gltf_iri.arrays import film_rows
+from gltf_iri.arrays.film_rows import column_spans, open_rows
+from gltf_iri.arrays.stream import check_out, stream_colours
 from gltf_iri.errors import UsageError
 
 Float64 = NDArray[np.float64]

@@ -11,6 +11,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.arrays.film_rows import CHANNELS
 from gltf_iri.backends import choose_backend
 from gltf_iri.baking.baked import BakedTable
 from gltf_iri.baking.lookup import look_up
@@ -34,7 +35,6 @@ AIR: Final = 1.0
 
 _NONE: Final = Span.at(0.0)
 _SAME_INDEX: Final = 1e-9  # what the way to F0 and back rounds
-_CHANNELS: Final = ("base_r", "base_g", "base_b")
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +73,7 @@ class ArrayFilms:
         if "base_f0" in self.columns:
             return np.repeat(block[:, self.columns.index("base_f0")][:, None], 3, axis=1)
         if "base_r" in self.columns:
-            return block[:, [self.columns.index(name) for name in _CHANNELS]]
+            return block[:, [self.columns.index(name) for name in CHANNELS]]
         return np.broadcast_to(self.bases[lobe][1].f0, (3,))
 
 

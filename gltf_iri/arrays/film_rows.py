@@ -15,9 +15,12 @@ from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import INDEX_MAX, THICKNESS_MAX_NM
 from gltf_iri.planning.reach import Span
 
-__all__ = ["COLUMNS", "ROWS_AT_ONCE", "column_spans", "open_rows", "span_steps"]
+__all__ = ["CHANNELS", "COLUMNS", "ROWS_AT_ONCE", "column_spans", "open_rows", "span_steps"]
 
 Rows = NDArray[np.floating[Any]]
+
+# A coloured base.
+CHANNELS: Final = ("base_r", "base_g", "base_b")
 
 # What a column may be called, and what its numbers may be.
 COLUMNS: Final[Mapping[str, Span]] = MappingProxyType(
@@ -27,12 +30,9 @@ COLUMNS: Final[Mapping[str, Span]] = MappingProxyType(
         "film_ior": Span(1.0 / INDEX_MAX, INDEX_MAX),
         "outside_ior": Span(1.0 / INDEX_MAX, INDEX_MAX),
         "base_f0": Span(0.0, 1.0),
-        "base_r": Span(0.0, 1.0),
-        "base_g": Span(0.0, 1.0),
-        "base_b": Span(0.0, 1.0),
+        **dict.fromkeys(CHANNELS, Span(0.0, 1.0)),
     }
 )
-_CHANNELS: Final = ("base_r", "base_g", "base_b")
 
 # At a time: a method's temporaries, some hundred numbers a row, then take a tenth of a gigabyte a thread.
 ROWS_AT_ONCE: Final = 1 << 17
@@ -106,6 +106,6 @@ def _check_names(columns: Sequence[str]) -> None:
         raise UsageError("A column is named twice; name each once.")
     if "cos" not in columns:
         raise UsageError("One of the columns must be cos, the cosine of the angle outside.")
-    channels = [name for name in _CHANNELS if name in columns]
+    channels = [name for name in CHANNELS if name in columns]
     if 0 < len(channels) < 3 or (channels and "base_f0" in columns):
         raise UsageError("A base is one column, base_f0, or three: base_r, base_g and base_b.")

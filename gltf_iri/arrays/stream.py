@@ -13,7 +13,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.baking.film_rows import ROWS_AT_ONCE
+from gltf_iri.arrays.film_rows import ROWS_AT_ONCE
 from gltf_iri.errors import UsageError
 from gltf_iri.whole_files import write_whole
 
