@@ -36,7 +36,7 @@ _LINES_MAX: Final = 1 << 13
 _LARGEST_BYTES: Final = 512 << 20
 
 # Folders of the package whose code the texels depend on.
-_COMPUTED_BY: Final = ("baking", "evaluation", "optics", "colour")
+_COMPUTED_BY: Final = ("baking", "evaluation", "optics", "colour", "compiled")
 
 
 def user_folder() -> Path:
