@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
-from gltf_iri.colour.quadrature import HALF_BANDWIDTH_PER_NM
+from gltf_iri.colour.quadrature import SPECTRAL_DEGREE, resolved_opd_nm
 from gltf_iri.planning.costs import Costs, Device, shipped_costs
 from gltf_iri.planning.film_table import FilmTable
 from gltf_iri.planning.method import METHODS, Domain, ParameterValue
@@ -25,8 +25,7 @@ _THICK_NM: Final = 3000.0
 _MIRRORS: Final = "mirrors-"
 
 # The twin of the truth in GLSL has a rule of fixed length, which does not resolve longer path differences.
-_GLSL_TRUTH_DEGREE: Final = 512
-_GLSL_TRUTH_OPD_NM: Final = _GLSL_TRUTH_DEGREE / (2.0 * math.pi * HALF_BANDWIDTH_PER_NM)
+_GLSL_TRUTH_OPD_NM: Final = resolved_opd_nm(SPECTRAL_DEGREE)
 
 
 @dataclass(frozen=True, slots=True)

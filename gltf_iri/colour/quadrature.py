@@ -8,6 +8,7 @@ and illuminant (product integration; Sloan & Smith 1978). A rule of twice the de
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cache
 from typing import Final
@@ -20,7 +21,8 @@ from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM, colour_matching, illum
 from gltf_iri.colour.spaces import White, rgb_matrix
 from gltf_iri.errors import UsageError
 
-__all__ = ["HALF_BANDWIDTH_PER_NM", "ColourRule", "colour_density", "colour_rule"]
+__all__ = ["HALF_BANDWIDTH_PER_NM", "SPECTRAL_DEGREE", "ColourRule", "colour_density", "colour_rule"]
+__all__ += ["resolved_opd_nm"]
 
 Float64 = NDArray[np.float64]
 
@@ -29,6 +31,9 @@ _MIDDLE_PER_NM: Final = 0.5 * (1.0 / _SHORTEST_NM + 1.0 / _LONGEST_NM)
 
 # Half the range of ν: cos(2πDν) turns through D·2π·this on [−1, 1], and needs a degree beyond that.
 HALF_BANDWIDTH_PER_NM: Final = 0.5 * (1.0 / _SHORTEST_NM - 1.0 / _LONGEST_NM)
+
+# Of the rule that travels to OpenGL; it resolves path differences of some 100 µm.
+SPECTRAL_DEGREE: Final = 512
 
 # Gauss points per panel of at most _PANEL_RAD of the fastest term's phase: 8 points integrate it to 1e-16.
 _GAUSS_POINTS: Final = 8
@@ -41,6 +46,11 @@ class ColourRule:
 
     wavelength_nm: Float64  # (degree + 1,)
     weights: Float64  # (degree + 1, 3); each column sums to 1
+
+
+def resolved_opd_nm(degree: int) -> float:
+    """Return the longest path difference whose fringes a rule of `degree` can resolve, in nm."""
+    return degree / (2.0 * math.pi * HALF_BANDWIDTH_PER_NM)
 
 
 @cache

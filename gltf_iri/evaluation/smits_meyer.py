@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.colour.integrate import MAX_DEGREE
-from gltf_iri.colour.quadrature import HALF_BANDWIDTH_PER_NM, colour_rule
+from gltf_iri.colour.quadrature import colour_rule, resolved_opd_nm
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Evaluation, Film
 from gltf_iri.optics.fresnel import amplitude_p, amplitude_s
@@ -30,7 +30,7 @@ Float64 = NDArray[np.float64]
 
 # The path difference that the fixed rule resolves with a tenth of its nodes to spare, some 0.19 mm. The eye
 # sees no fringes from 0.05 mm on; beyond this one they are left out, where the rule would alias them.
-LONGEST_OPD_NM: Final = 0.9 * MAX_DEGREE / (2.0 * np.pi * HALF_BANDWIDTH_PER_NM)
+LONGEST_OPD_NM: Final = 0.9 * resolved_opd_nm(MAX_DEGREE)
 
 _ROWS_AT_ONCE: Final = 256  # bounds memory: 256 × 1025 cosines
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.colour.quadrature import HALF_BANDWIDTH_PER_NM, colour_rule
+from gltf_iri.colour.quadrature import SPECTRAL_DEGREE, colour_rule
 from gltf_iri.colour.sensitivity_table import END_NM, sensitivity_table
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import MissingCapabilityError, UsageError
@@ -36,8 +36,6 @@ __all__ += [
     "SENSITIVITY_ROW_BITS",
     "SENSITIVITY_SLOPE_BITS",
     "SENSITIVITY_SLOPE_MAX",
-    "SPECTRAL_DEGREE",
-    "SPECTRAL_OPD_MAX_NM",
     "SPECTRAL_SMOOTH_DEGREE",
 ]
 __all__ += ["OpticsTableStore", "Table", "optics_table", "table_texture"]
@@ -50,8 +48,6 @@ Table = Float32 | UInt32  # uint32 fills a usampler2D
 TableFill = Callable[..., Table]
 
 _CHANNELS: Final = 4
-
-SPECTRAL_DEGREE: Final = 512
 
 # Spectra without fringes, of films that are very thin or frustrated.
 SPECTRAL_SMOOTH_DEGREE: Final = 32
@@ -71,9 +67,6 @@ SENSITIVITY_ROW_BITS: Final = 10
 SENSITIVITY_ROW: Final = 1 << SENSITIVITY_ROW_BITS
 SENSITIVITY_LAST: Final = math.ceil(SENSITIVITY_FINE_END_NM * (SENSITIVITY_FINE_PER_NM - 1) + END_NM)
 SENSITIVITY_ROWS: Final = SENSITIVITY_LAST // SENSITIVITY_ROW + 1
-
-# Fringes of a longer path difference (some 100 µm) are not resolved by so many wavelengths.
-SPECTRAL_OPD_MAX_NM: Final = SPECTRAL_DEGREE / (2.0 * np.pi * HALF_BANDWIDTH_PER_NM)
 
 
 def _spectral_rule(white: White, **parameters: ParameterValue) -> Float32:

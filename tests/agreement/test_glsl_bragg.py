@@ -11,11 +11,10 @@ from numpy.typing import NDArray
 from single_precision import rounded
 
 from gltf_iri.bench.mirror_set import low_contrast_set, mirror_set
-from gltf_iri.colour.quadrature import colour_rule
+from gltf_iri.colour.quadrature import SPECTRAL_DEGREE, colour_rule
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.yeh_spectral import mirror_spectrum
 from gltf_iri.optics.bragg import bragg_reflectance
-from gltf_iri.rendering.optics_tables import SPECTRAL_DEGREE
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.tolerances import GLSL_MIRROR_COLOUR_MAX_ABS, GLSL_OPTICS_MAX_ABS
 

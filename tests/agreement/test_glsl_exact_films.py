@@ -11,13 +11,13 @@ import pytest
 from numpy.typing import NDArray
 
 from gltf_iri.bench.film_set import film_set
-from gltf_iri.colour.quadrature import colour_rule
+from gltf_iri.colour.quadrature import SPECTRAL_DEGREE, colour_rule
 from gltf_iri.evaluation.film import Base, Film
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.evaluation.spectral import film_spectrum
 from gltf_iri.optics.refraction import normal_index_squared
 from gltf_iri.planning.method import METHODS
-from gltf_iri.rendering.optics_tables import SPECTRAL_DEGREE, optics_table
+from gltf_iri.rendering.optics_tables import optics_table
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.rendering.twins import ResultType
 from gltf_iri.tolerances import GLSL_BRANCH_ULP, GLSL_OPTICS_MAX_ABS
