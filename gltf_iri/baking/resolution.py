@@ -16,7 +16,6 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.baking.fill import filling_ns
 from gltf_iri.baking.table_errors import AxisErrors, Judged, p95_below
 from gltf_iri.baking.table_values import Places, TableValues
 from gltf_iri.colour.spaces import White
@@ -27,7 +26,7 @@ from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.planning.film_table import FilmTable, TableAxis, Texel
 from gltf_iri.planning.reach import Lobe, Reach, Span
 
-__all__ = ["BYTES_MAX", "filling_ns", "fit_table"]
+__all__ = ["BYTES_MAX", "fit_table"]
 
 Float64 = NDArray[np.float64]
 

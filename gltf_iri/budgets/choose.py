@@ -19,7 +19,7 @@ from gltf_iri.budgets.search import Chosen, TableOffer, cheapest_way, check_budg
 from gltf_iri.colour.spaces import WHITES, Light
 from gltf_iri.planning.costs import Device
 from gltf_iri.planning.film_table import FilmTable, TableAxis
-from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.method import METHODS, truth_of
 from gltf_iri.planning.reach import Lobe, Reach, Span
 from gltf_iri.planning.way import Way
 from gltf_iri.tolerances import GLSL_FILM_DELTA_E
@@ -111,7 +111,8 @@ def _tables(errors: FilmErrors, asked: Asked, floor: float) -> TableOffer:
     reach = errors.reach
 
     def fit(budget: float) -> Way | None:
-        from gltf_iri.baking.resolution import filling_ns, fit_table
+        from gltf_iri.baking.fill import filling_ns
+        from gltf_iri.baking.resolution import fit_table
 
         if budget <= floor:
             return None
@@ -130,7 +131,7 @@ def _tables(errors: FilmErrors, asked: Asked, floor: float) -> TableOffer:
                 return None
             tables.append(table)
         return Way(
-            next(name for name, method in METHODS.items() if method.domain == "film" and method.is_truth),
+            truth_of("film"),
             {},
             tuple(tables),
             sum(table_ns(asked.device, table) for table in tables),

@@ -16,7 +16,7 @@ from gltf_iri.colour.spaces import Light, White
 from gltf_iri.evaluation.film import Film, Float64
 from gltf_iri.evaluation.prefiltered import prefiltered_fourier
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.planning.method import ParameterValue
+from gltf_iri.planning.method import ParameterValue, truth_of
 
 __all__ = ["film_truth", "mean_film_truth"]
 
@@ -30,7 +30,7 @@ def film_truth(film: Film, white: str | Light, *, is_exact: bool) -> Float64:
     Raises UsageError as `evaluate`.
     """
     if is_exact:
-        return evaluate("spectral", film, white=white).rgb
+        return evaluate(truth_of("film"), film, white=white).rgb
     return evaluate("fourier", film, white=white, parameters=_SERIES).rgb
 
 
