@@ -45,11 +45,6 @@ class TextureSpans:
     channels: tuple[Span, ...]
     is_grey: bool
 
-    @property
-    def is_one_value(self) -> bool:
-        """True where every texel is the same."""
-        return all(span.is_point for span in self.channels)
-
 
 @dataclass(frozen=True, slots=True)
 class _Stored:
