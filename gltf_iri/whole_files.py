@@ -7,7 +7,9 @@ import tempfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-__all__ = ["Content", "write_whole"]
+from gltf_iri.errors import UsageError
+
+__all__ = ["Content", "write_or_refuse", "write_whole"]
 
 # The bytes of a file, or a function that writes it to the path that it is given.
 Content = bytes | Callable[[Path], None]
@@ -37,6 +39,21 @@ def write_whole(contents: Mapping[Path, Content]) -> None:
     finally:
         for temporary in unfinished.values():
             temporary.unlink(missing_ok=True)
+
+
+def write_or_refuse(contents: Mapping[Path, Content], folder: Path | None = None) -> None:
+    """Write all files as `write_whole` does, where a user chose the place.
+
+    Raises UsageError for what the system refuses, which names the `folder`, or else the first file.
+    """
+    try:
+        write_whole(contents)
+    except OSError as error:
+        if folder is None:
+            place = f"'{next(iter(contents))}' cannot be written"
+        else:
+            place = f"'{folder}' cannot be written to"
+        raise UsageError(f"{place}: {error.strerror or error}.") from error
 
 
 def _umask() -> int:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from gltf_iri.arrays.film_rows import ROWS_AT_ONCE
 from gltf_iri.errors import UsageError
-from gltf_iri.whole_files import write_whole
+from gltf_iri.whole_files import write_or_refuse
 
 __all__ = ["THREADS", "check_out", "stream_colours", "stream_steps"]
 
@@ -80,10 +80,7 @@ def stream_colours(
         # Not flushed: the system writes when it likes, and would keep the caller waiting for seconds.
         _in_threads(fill, range(0, len(rows), rows_at_once), threads, advance)
 
-    try:
-        write_whole({out: write})
-    except OSError as error:
-        raise UsageError(f"'{out}' cannot be written: {error.strerror or error}.") from error
+    write_or_refuse({out: write})
 
 
 def _take_space(path: Path) -> None:

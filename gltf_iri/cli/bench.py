@@ -193,12 +193,9 @@ def _check_plot(plot: Path) -> None:
 def _draw(plot: Path, report: _Report) -> None:
     from gltf_iri.bench.optics import OpticsRow
     from gltf_iri.bench.plot import plot_optics
-    from gltf_iri.whole_files import write_whole
+    from gltf_iri.whole_files import write_or_refuse
 
-    try:
-        write_whole({plot: plot_optics([row for row in report.rows if isinstance(row, OpticsRow)])})
-    except OSError as error:
-        raise UsageError(f"'{plot}' cannot be written: {error.strerror or error}.") from error
+    write_or_refuse({plot: plot_optics([row for row in report.rows if isinstance(row, OpticsRow)])})
 
 
 def _films(report: _Report, name: str, rounds: int | None) -> None:

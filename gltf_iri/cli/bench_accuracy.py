@@ -95,9 +95,6 @@ def write_accuracy(
 ) -> None:
     """Write the report into `folder`; UsageError where it cannot be."""
     from gltf_iri.bench.accuracy_report import accuracy_files
-    from gltf_iri.whole_files import write_whole
+    from gltf_iri.whole_files import write_or_refuse
 
-    try:
-        write_whole(accuracy_files(folder, rows, machine, skipped))
-    except OSError as error:
-        raise UsageError(f"'{folder}' cannot be written to: {error.strerror or error}.") from error
+    write_or_refuse(accuracy_files(folder, rows, machine, skipped), folder)

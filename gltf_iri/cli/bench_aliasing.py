@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from gltf_iri.cli.common import print_table, progress
-from gltf_iri.errors import UsageError
 
 if TYPE_CHECKING:
     from gltf_iri.bench.aliasing import Aliasing
@@ -60,12 +59,9 @@ def write_aliasing(folder: Path, measured: Aliasing, machine: Mapping[str, Any])
 
     from gltf_iri.bench.aliasing_sheet import aliasing_sheet
     from gltf_iri.rendering.picture import webp_bytes
-    from gltf_iri.whole_files import write_whole
+    from gltf_iri.whole_files import write_or_refuse
 
     rows = [row.to_json() for row in measured.rows]
     text = json.dumps({"white": "D65", "machine": dict(machine), "rows": rows}, indent=2)
     files = {_FIGURES: (text + "\n").encode(), _SHEET: webp_bytes(aliasing_sheet(measured))}
-    try:
-        write_whole({folder / name: content for name, content in files.items()})
-    except OSError as error:
-        raise UsageError(f"'{folder}' cannot be written to: {error.strerror or error}.") from error
+    write_or_refuse({folder / name: content for name, content in files.items()}, folder)

@@ -11,8 +11,7 @@ from typing import Any
 from gltf_iri.comparison.figures import delta_e_map, deviation_map, picture
 from gltf_iri.comparison.result import Comparison
 from gltf_iri.comparison.template import load_template
-from gltf_iri.errors import UsageError
-from gltf_iri.whole_files import write_whole
+from gltf_iri.whole_files import write_or_refuse
 
 __all__ = ["report_html", "write_report"]
 
@@ -28,10 +27,7 @@ def write_report(comparison: Comparison, folder: Path) -> dict[str, Path]:
     # A file's name need not be UTF-8. Its stray bytes stay readable in JSON, whose escapes these are.
     files["report"] = ("report.json", f"{report}\n".encode(errors="backslashreplace"))
     files["page"] = ("index.html", report_html(comparison, images).encode(errors="replace"))
-    try:
-        write_whole({folder / file: data for file, data in files.values()})
-    except OSError as error:
-        raise UsageError(f"'{folder}' cannot be written to: {error.strerror or error}.") from error
+    write_or_refuse({folder / file: data for file, data in files.values()}, folder)
     return {name: folder / file for name, (file, _) in files.items()}
 
 

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from gltf_iri.comparison.template import load_template
-from gltf_iri.errors import UsageError
 from gltf_iri.gallery.entry import Entry, Setup
-from gltf_iri.whole_files import write_whole
+from gltf_iri.whole_files import write_or_refuse
 
 __all__ = ["gallery_html", "write_gallery"]
 
@@ -22,10 +21,7 @@ def write_gallery(entries: Sequence[Entry], setup: Setup, folder: Path) -> Path:
     Raises UsageError where it cannot be written there.
     """
     page = folder / "index.html"
-    try:
-        write_whole({page: gallery_html(entries, setup).encode(errors="replace")})
-    except OSError as error:
-        raise UsageError(f"'{page}' cannot be written: {error.strerror or error}.") from error
+    write_or_refuse({page: gallery_html(entries, setup).encode(errors="replace")})
     return page
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from gltf_iri.colour.transfer import srgb_encode
 from gltf_iri.errors import UsageError
 from gltf_iri.rendering.tonemap import tone_map
-from gltf_iri.whole_files import write_whole
+from gltf_iri.whole_files import write_or_refuse
 
 if TYPE_CHECKING:
     import PIL.Image
@@ -106,7 +106,9 @@ def write_orbit(
     paths = orbit_paths(path, count)
     drawn = iter(frames)
     if paths[0].suffix.lower() == ANIMATED:
-        _save({paths[0]: lambda unfinished: _write_animation(unfinished, drawn, count, exposure, tonemap)})
+        write_or_refuse(
+            {paths[0]: lambda unfinished: _write_animation(unfinished, drawn, count, exposure, tonemap)}
+        )
     else:
         _write({place: lambda: next(drawn) for place in paths}, exposure, tonemap)
     return paths
@@ -124,15 +126,7 @@ def _write(frames: Mapping[Path, Callable[[], Float32]], exposure: float, tonema
         encode = _WRITERS[place.suffix.lower()]
         return lambda unfinished: encode(str(unfinished), frame(), exposure, tonemap)
 
-    _save({place: writing(place, frame) for place, frame in frames.items()})
-
-
-def _save(contents: Mapping[Path, Callable[[Path], None]]) -> None:
-    try:
-        write_whole(contents)
-    except OSError as error:
-        place = next(iter(contents))
-        raise UsageError(f"'{place}' cannot be written: {error.strerror or error}.") from error
+    write_or_refuse({place: writing(place, frame) for place, frame in frames.items()})
 
 
 def _as_image(pixels: NDArray[np.uint8]) -> PIL.Image.Image:
