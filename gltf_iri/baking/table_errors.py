@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from gltf_iri.baking.lookup import axis_coordinate, axis_values
 from gltf_iri.baking.table_values import Places, TableValues
 from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.colour.quantile import bounds
 from gltf_iri.planning.film_table import Quantity, TableAxis
 
 __all__ = ["AxisErrors", "Judged", "p95_below"]
@@ -26,18 +27,10 @@ Float64 = NDArray[np.float64]
 
 _FILTER_STEP: Final = 1.0 / 512.0  # half of the last of eight bits
 
-# How surely the true p95 lies below `p95_below`, in standard deviations: all but one in a thousand.
-_SURE: Final = 3.09
-
 
 def p95_below(errors: Float64) -> float:
-    """Return a number that 95 % of all errors lie below, as `errors` at random places tell.
-
-    The k-th smallest of n, where no more than one binomial variable Bin(n, 0.95) in a thousand reaches k.
-    """
-    ordered = np.sort(errors, axis=None)
-    rank = math.ceil(0.95 * ordered.size + _SURE * math.sqrt(0.95 * 0.05 * ordered.size)) + 1
-    return float(ordered[min(rank, ordered.size) - 1])
+    """Return a number that 95 % of all errors lie below, as surely as `gltf_iri.colour.quantile` says."""
+    return bounds(errors.reshape(-1))[1]
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,7 @@
 An error is the CIEDE2000 between colours of the surface at the film's greatest factor, seen against white 1:
 of light from one direction, where there is image light of its mean over the facets, and where the thickness
 varies within a pixel of its mean over that. What is stated is a number that the p95 of it lies below
-(`gltf_iri.budgets.quantile`), the greatest of the sights'.
+(`gltf_iri.colour.quantile`), the greatest of the sights'.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.budgets.quantile import LOOKS, bounds
 from gltf_iri.budgets.samples import Points, points_of
 from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.colour.quantile import LOOKS, bounds
 from gltf_iri.colour.spaces import Light
 from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.film_truth import film_truth, mean_film_truth

@@ -1,6 +1,6 @@
 """The cheapest way to the colours of given films or mirrors, whose errors are measured on themselves.
 
-Of many, evenly spread ones stand for all (`gltf_iri.budgets.quantile`); of few each is looked at.
+Of many, evenly spread ones stand for all (`gltf_iri.colour.quantile`); of few each is looked at.
 """
 
 from __future__ import annotations
@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from gltf_iri.backends import choose_backend
 from gltf_iri.budgets.candidates import Candidate, direct_candidates, film_workload, mirror_workload
 from gltf_iri.budgets.errors import Measured
-from gltf_iri.budgets.quantile import LOOKS, SHARE, bounds
 from gltf_iri.budgets.search import Chosen, cheapest_way, check_budget, the_truth
 from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.colour.quantile import LOOKS, SHARE, bounds
 from gltf_iri.colour.spaces import Light
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Base, Evaluation, Film, base_from_ior

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gltf_iri.budgets.quantile import CONFIDENCE, LOOKS, SHARE, bounds, ranks
+from gltf_iri.colour.quantile import CONFIDENCE, LOOKS, SHARE, bounds, ranks
 
 
 @pytest.mark.parametrize("count", LOOKS)
