@@ -6,6 +6,7 @@ import heapq
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Final
 
 from gltf_iri.budgets.candidates import Candidate
 from gltf_iri.budgets.errors import Measured
@@ -15,8 +16,10 @@ from gltf_iri.planning.way import Way
 
 __all__ = ["Chosen", "TableOffer", "cheapest_way", "check_budget", "figure", "the_truth"]
 
-# Looser budgets that are tried for tables where none keeps the one asked for: each twice the one before.
-_DOUBLINGS = 24
+# Where no table keeps the budget, the least that one does is bracketed: to this ratio, and not below this
+# share of what methods reach, where tables are slow to fit.
+_BRACKET: Final = 1.25
+_LEAST_SHARE: Final = 2.0**-12
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,10 +87,10 @@ def cheapest_way(
                 way = Way(each.method, each.parameters, (), each.ns_per_colour, 0.0, found.delta_e)
         if way is not None:
             return Chosen(way, _reason(way, budget, offered, queue))
-    best = _best_reachable(candidates, measure, tables, budget)
+    best, kept = _best_reachable(candidates, measure, tables, budget)
     raise UsageError(
         f"No way keeps ΔE {budget:g} for {subject}: the best is {best.label} with ΔE ≤ "
-        f"{figure(best.delta_e)}. Ask for that much, or for 0, the truth itself."
+        f"{figure(best.delta_e)}. Ask for {figure(kept)} or more, or for 0, the truth itself."
     )
 
 
@@ -104,12 +107,12 @@ def _reason(
     cost = f"{figure(way.ns_per_colour)} ns a colour"
     if way.tables:
         cost += f" and {figure(1e-6 * way.filling_ns)} ms once"
-    text = f"the cheapest of {offered} ways within ΔE {budget:g}: ΔE ≤ {figure(way.delta_e)} for {cost}"
+    text = f"of {offered} ways the cheapest within ΔE {budget:g}: ΔE ≤ {figure(way.delta_e)} for {cost}"
     left = sorted(dearer, key=lambda entry: entry[:2])
     following = next((each for _, _, each in left if isinstance(each, Candidate)), None)
     if following is None:
         return text
-    return f"{text}; next: {following.label}, {figure(following.ns_per_colour)} ns"
+    return f"{text}; the next dearer, not measured: {following.label}, {figure(following.ns_per_colour)} ns"
 
 
 def _best_reachable(
@@ -117,22 +120,27 @@ def _best_reachable(
     measure: Callable[[Candidate, float], Measured],
     tables: TableOffer | None,
     budget: float,
-) -> Way:
-    """Return the way of the least error; each is measured to the end, which takes its time."""
+) -> tuple[Way, float]:
+    """Return the way of the least error, and a budget that it is known to keep.
+
+    A table does not always keep what it errs: one that is asked for so much aims at less.
+    """
     ways = [
         Way(each.method, each.parameters, (), each.ns_per_colour, 0.0, measure(each, math.inf).delta_e)
         for each in candidates
     ]
     best = min(ways, key=lambda way: way.delta_e)
-    if tables is not None:
-        for doubling in range(1, _DOUBLINGS):
-            looser = budget * 2.0**doubling
-            if looser >= best.delta_e:
-                break
-            fitted = tables.fit(looser)
-            if fitted is not None:
-                return fitted
-    return best
+    kept = best.delta_e
+    fails = max(budget, kept * _LEAST_SHARE)
+    while tables is not None and kept > _BRACKET * fails:
+        # As it is printed, so that it holds for whoever asks for it.
+        between = float(figure(math.sqrt(fails * kept)))
+        fitted = tables.fit(between)
+        if fitted is None:
+            fails = between
+        else:
+            best, kept = fitted, between
+    return best, kept
 
 
 def figure(value: float) -> str:

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from gltf_iri.bench.budgets import BUDGETS, measure_budgets, random_reaches
-from gltf_iri.budgets.candidates import direct_candidates
+from gltf_iri.budgets.candidates import Candidate, direct_candidates
 from gltf_iri.budgets.choose import Asked, choose_way
-from gltf_iri.budgets.errors import FilmErrors
-from gltf_iri.budgets.search import figure
+from gltf_iri.budgets.errors import FilmErrors, Measured
+from gltf_iri.budgets.search import TableOffer, cheapest_way, figure
 from gltf_iri.errors import UsageError
 from gltf_iri.planning.costs import shipped_costs
 from gltf_iri.planning.reach import Reach, Span
@@ -58,8 +58,27 @@ def test_smaller_budgets_never_choose_a_larger_error(metallic: float) -> None:
 def test_a_budget_that_nothing_keeps_names_the_best_that_does() -> None:
     with pytest.raises(UsageError, match=r"ΔE 1e-05 for this one: the best is .* ΔE ≤ 0\.0001") as told:
         chosen(PLAIN, 1e-5)
-    best = float(str(told.value).split("ΔE ≤ ")[1].split(". Ask")[0])
+    best = float(str(told.value).split("Ask for ")[1].split(" or more")[0])
     assert chosen(PLAIN, best).delta_e <= best
+
+
+def test_the_best_is_a_table_where_no_method_comes_so_near() -> None:
+    series = Candidate("fourier", {"tolerance": 1e-4}, 100.0)
+
+    def fit(budget: float) -> Way | None:
+        # A table errs less than what it is asked for, and none keeps less than 0.5.
+        return Way("spectral", {}, (), 5.0, 1e6, 0.8 * budget) if budget >= 0.5 else None
+
+    def way(budget: float) -> Way:
+        tables = TableOffer(5.0, fit)
+        return cheapest_way(
+            [series], lambda *_: Measured(11.0, False), budget, 1e6, subject="it", tables=tables
+        ).way
+
+    with pytest.raises(UsageError, match="ΔE 1e-09 for it: the best is spectral") as told:
+        way(1e-9)
+    least = float(str(told.value).split("Ask for ")[1].split(" or more")[0])
+    assert way(least).delta_e <= least < 0.7
 
 
 def test_figures_are_those_of_the_map() -> None:

@@ -78,7 +78,7 @@ def test_plan_tells_the_way_its_cost_and_its_error(films: str, capsys: pytest.Ca
     assert 0.0 < way["delta_e"] <= 0.5
     assert way["ns_per_colour"] == shipped_costs().ns_of("glsl", "films", way["label"])
     assert again["way"] == way
-    assert "the cheapest of" in film["method_reason"]
+    assert "the cheapest within ΔE 0.5" in film["method_reason"]
     assert "iridescence" not in weak["effects"]
     assert "too weak to be seen: without it ΔE ≤" in weak["skipped"]["iridescence"]
     assert run(["plan", films, "--budget", "0.5"]) == 0
@@ -96,6 +96,8 @@ def test_what_cannot_be_kept_names_the_best(films: str, capsys: pytest.CaptureFi
     assert run(["plan", films, "--budget", "1e-9"]) == 2
     told = capsys.readouterr().err
     assert "No way keeps ΔE 1e-09 for material 'film': the best is" in told
+    least = told.split("Ask for ")[1].split(" or more")[0]
+    assert run(["plan", films, "--budget", least]) == 0
     assert len(told.strip().splitlines()) == 1
 
 
