@@ -14,8 +14,8 @@ from gltf_iri.planning.reach import Lobe
 if TYPE_CHECKING:
     from gltf_iri.scene.model import Environment, Light, Primitive, Scene
 
-__all__ = ["FILM_FACET_MEAN", "FILM_SWITCHES", "LAYERING_SPECULAR", "permutation", "plan_scene_effects"]
-__all__ += ["film_lobes", "primitive_effects", "shines"]
+__all__ = ["AXIS_WORDS", "FILM_FACET_MEAN", "FILM_SWITCHES", "LAYERING_SPECULAR", "film_lobes"]
+__all__ += ["permutation", "plan_scene_effects", "primitive_effects", "shines"]
 
 # The dielectric layering of the text's KHR_materials_specular section; without it, the core section's.
 LAYERING_SPECULAR: Final = "LAYERING_SPECULAR"
@@ -28,12 +28,18 @@ FILM_FACET_MEAN: Final = "FILM_FACET_MEAN"
 
 _LOBES: Final[Mapping[Lobe, Effect]] = {"dielectric": Effect.DIELECTRIC, "metal": Effect.METAL}
 
+# What GLSL calls the axes of a table, in the names of uniforms and of switches.
+AXIS_WORDS: Final[Mapping[Quantity, str]] = {
+    "cos_theta": "cos_theta",
+    "thickness_nm": "thickness",
+    "base_f0": "base",
+    "roughness": "roughness",
+    "spread_nm": "spread",
+}
+
 # What a table's switches end in, for each axis beside cosθ; then for three and for four axes.
 _AXES: Final[Mapping[Quantity, str]] = {
-    "thickness_nm": "_THICKNESS",
-    "base_f0": "_BASE",
-    "roughness": "_ROUGHNESS",
-    "spread_nm": "_SPREAD",
+    axis: f"_{word.upper()}" for axis, word in AXIS_WORDS.items() if axis != "cos_theta"
 }
 _SHAPES: Final = {3: ("_3D",), 4: ("_3D", "_4D")}
 

@@ -14,9 +14,9 @@ import numpy as np
 
 from gltf_iri.baking.baked import BakedTable
 from gltf_iri.errors import MissingCapabilityError, UsageError
-from gltf_iri.planning.film_table import FilmTable, Quantity, TableAxis
+from gltf_iri.planning.film_table import FilmTable, TableAxis
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.permutation import film_lobes
+from gltf_iri.planning.permutation import AXIS_WORDS, film_lobes
 from gltf_iri.planning.reach import Lobe
 from gltf_iri.rendering.uniforms import Sampled
 
@@ -24,14 +24,6 @@ if TYPE_CHECKING:
     import moderngl
 
 __all__ = ["FilmTableStore", "checked_tables", "film_table_texture", "film_table_uniforms"]
-
-_UNIFORM_OF: Final[Mapping[Quantity, str]] = {
-    "cos_theta": "cos_theta",
-    "thickness_nm": "thickness",
-    "base_f0": "base",
-    "roughness": "roughness",
-    "spread_nm": "spread",
-}
 
 # Keeps the place of any value finite in float32, however narrow an axis is.
 _STEEPEST: Final = 1e20
@@ -130,7 +122,7 @@ def film_table_uniforms(table: FilmTable) -> dict[str, tuple[float, ...]]:
     values: dict[str, tuple[float, ...]] = {}
     for place, axis in enumerate(table.axes):
         counts_nodes = len(table.axes) == 4 and place >= 2
-        values[f"{prefix}_{_UNIFORM_OF[axis.quantity]}"] = _axis_uniform(axis, counts_nodes=counts_nodes)
+        values[f"{prefix}_{AXIS_WORDS[axis.quantity]}"] = _axis_uniform(axis, counts_nodes=counts_nodes)
     if len(table.axes) == 4:
         values[f"{prefix}_nodes"] = tuple(float(nodes) for nodes in table.shape[2:])
     return values
