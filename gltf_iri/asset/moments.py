@@ -13,11 +13,14 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["MEAN", "SQUARE", "moment_levels"]
+__all__ = ["MEAN", "ROUNDING", "SQUARE", "moment_levels"]
 
 # Where a level's texels keep E[t²] and E[t]: the mean in G, where glTF's thickness is.
 SQUARE: Final = 0
 MEAN: Final = 1
+
+# Of E[t²] − E[t]² in float32, t up to 1; 8-bit texels that differ do so by more.
+ROUNDING: Final = 2.5e-7
 
 
 def moment_levels(channel: NDArray[np.uint8]) -> Iterator[NDArray[np.float32]]:

@@ -17,8 +17,6 @@ _FEWEST_TEXELS: Final = 16
 
 _USUAL_PERCENT: Final = 95.0
 
-_ROUNDING: Final = 1e-6
-
 
 @dataclass(frozen=True, slots=True)
 class Spread:
@@ -40,7 +38,7 @@ def texel_spread(channel: NDArray[np.uint8]) -> Spread:
     """Return the spread of one channel (height, width) of bytes, in units of 255 of them."""
     import numpy as np
 
-    from gltf_iri.asset.moments import MEAN, SQUARE, moment_levels
+    from gltf_iri.asset.moments import MEAN, ROUNDING, SQUARE, moment_levels
 
     greatest = 0.0
     samples: list[NDArray[np.float64]] = []
@@ -48,7 +46,7 @@ def texel_spread(channel: NDArray[np.uint8]) -> Spread:
         mean = level[..., MEAN].astype(np.float64)
         variance = level[..., SQUARE] - mean * mean
         # What single precision leaves of equal texels is not a spread.
-        deviation = np.sqrt(np.where(variance < _ROUNDING, 0.0, variance))
+        deviation = np.sqrt(np.where(variance < ROUNDING, 0.0, variance))
         greatest = max(greatest, float(deviation.max()))
         if not samples or min(deviation.shape) >= _FEWEST_TEXELS:
             samples.append(np.percentile(deviation, np.arange(0.5, 100.0)))

@@ -5,7 +5,7 @@
 #include "generated/material.glsl"
 #include "lighting/footprint.glsl"
 
-// Of E[t²] − E[t]² in float32, t up to 1; 8-bit texels that differ do so by more.
+// ROUNDING of gltf_iri/asset/moments.py.
 const float MOMENTS_ROUNDING = 2.5e-7;
 
 // Places that a pixel is read at, at most: filtering takes in twice the width of a texel, so that few large texels

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 
 import numpy as np
 import pytest
 
-from gltf_iri.asset.moments import MEAN, SQUARE, moment_levels
+from gltf_iri.asset.moments import MEAN, ROUNDING, SQUARE, moment_levels
 from gltf_iri.material.interface import TextureBinding
 from gltf_iri.rendering.textures import TextureStore
+from gltf_iri.resources import shader_root
 
 SIZES = [(64, 64), (48, 5), (1, 9), (7, 1), (3, 3), (1, 1), (33, 70)]
 
@@ -60,3 +62,9 @@ def test_opengl_holds_the_levels_as_they_were_made(gl_context, props):
         np.testing.assert_array_equal(held, level)
     assert texture is not store.get(TextureBinding(index, "linear"))
     store.release()
+
+
+def test_what_counts_as_rounding_is_the_same_in_glsl():
+    source = (shader_root() / "material" / "thickness.glsl").read_text(encoding="utf-8")
+    (value,) = re.findall(r"MOMENTS_ROUNDING = ([^;]+);", source)
+    assert float(value) == ROUNDING
