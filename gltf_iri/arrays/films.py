@@ -17,10 +17,9 @@ from gltf_iri.baking.baked import BakedTable
 from gltf_iri.baking.lookup import look_up
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Base, Film, base_from_f0
+from gltf_iri.evaluation.material_film import under_film
 from gltf_iri.evaluation.registry import evaluate
-from gltf_iri.material.ior import Ior
 from gltf_iri.material.material import Material
-from gltf_iri.material.specular import Specular
 from gltf_iri.optics.ior import fresnel0_to_ior
 from gltf_iri.planning.decide import plan_material
 from gltf_iri.planning.method import ParameterValue, find_method
@@ -185,13 +184,11 @@ def films_of_material(
     plan = plan_material(material, index)
     if material.iridescence is None or plan.method is None:
         raise UsageError(f"Material '{plan.name or index}' has nothing to evaluate: {plan.method_reason}.")
-    specular = material.specular or Specular()
-    weight = specular.factor if plan.layering == "specular" else 1.0
-    dielectric = weight * np.minimum((material.ior or Ior()).f0 * np.array(specular.color_factor), 1.0)
+    under = under_film(material, plan)
     metalness = material.pbr.metallic_factor
     bases: dict[Lobe, tuple[float, Base]] = {
-        "dielectric": (1.0 - metalness, base_from_f0(dielectric)),
-        "metal": (metalness, base_from_f0(material.pbr.base_color_factor[:3])),
+        "dielectric": (1.0 - metalness, base_from_f0(under.weight * under.dielectric_f0)),
+        "metal": (metalness, base_from_f0(under.metal_f0)),
     }
     return ArrayFilms(
         columns,

@@ -27,9 +27,18 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import ParameterValue
 
-__all__ = ["MaterialFilm", "evaluate_material"]
+__all__ = ["MaterialFilm", "UnderFilm", "evaluate_material", "under_film"]
 
 Float64 = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class UnderFilm:
+    """What lies under a material's film: F0 (3,) of its metal, and of its dielectric before its weight."""
+
+    metal_f0: Float64
+    dielectric_f0: Float64
+    weight: float  # of the dielectric under the film: the specular factor where the layering puts it there
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,6 +57,16 @@ class MaterialFilm:
     thickness_nm: float
     thickness_range_nm: tuple[float, float]
     factor: float
+
+
+def under_film(material: Material, plan: MaterialPlan) -> UnderFilm:
+    """Return the bases under the film of `material` without its textures."""
+    specular = material.specular or Specular()
+    return UnderFilm(
+        np.array(material.pbr.base_color_factor[:3]),
+        np.minimum((material.ior or Ior()).f0 * np.array(specular.color_factor), 1.0),
+        specular.factor if plan.layering == "specular" else 1.0,
+    )
 
 
 def evaluate_material(
@@ -73,13 +92,11 @@ def evaluate_material(
     thickness = iridescence.thickness_max_nm if thickness_nm is None else thickness_nm
     is_textured = plan.calls_for(Effect.IRIDESCENCE_THICKNESS_TEXTURE)
     at_zero_nm = iridescence.thickness_min_nm if is_textured else iridescence.thickness_max_nm
-    specular = material.specular or Specular()
     metalness = material.pbr.metallic_factor
     cosine = np.asarray(cos_theta, dtype=np.float64)
 
-    dielectric_f0 = np.minimum((material.ior or Ior()).f0 * np.array(specular.color_factor), 1.0)
-    metal_f0 = np.array(material.pbr.base_color_factor[:3])
-    weight = specular.factor if plan.layering == "specular" else 1.0
+    under = under_film(material, plan)
+    dielectric_f0, metal_f0, weight = under.dielectric_f0, under.metal_f0, under.weight
     method, ior = plan.method, iridescence.film_ior
     over_dielectric, over_metal = (
         evaluate(
