@@ -82,3 +82,12 @@ def test_shapes_broadcast_and_may_be_empty() -> None:
     baked = baked_of((COS, NM))
     assert look_up(baked, np.zeros((4, 1)), np.zeros(5), np.zeros(3)).shape == (4, 5, 3)
     assert look_up(baked, np.zeros(0), 400.0, np.zeros(3)).shape == (0, 3)
+
+
+@pytest.mark.parametrize("backend", ["numpy", "numba"])
+def test_a_base_below_0_is_read_as_the_darkest(backend: str) -> None:
+    if backend == "numba":
+        pytest.importorskip("numba")
+    baked = baked_of((COS, BASE))
+    below, darkest = (look_up(baked, 0.3, 400.0, np.full(3, f0), backend=backend) for f0 in (-0.01, 0.04))
+    np.testing.assert_allclose(below, darkest, rtol=0, atol=1e-13)

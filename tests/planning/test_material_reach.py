@@ -102,6 +102,12 @@ def test_an_image_larger_than_a_strip_is_looked_at_whole(images):
     assert images.asked == [1]
 
 
+def test_a_tint_is_cut_at_1_before_the_specular_weight_counts() -> None:
+    specular = Specular(0.5, None, (40.0, 10.0, 1.0), None)
+    reach = material_reach(Material(iridescence=FILM, specular=specular), None)
+    assert [span.high for span in reach.dielectric_f0] == pytest.approx([0.5, 0.2, 0.02])
+
+
 def test_colours_are_decoded_and_numbers_are_not(images):
     texture = images.add([[(51, 102, 153, 204)]])
     reach = material_reach(

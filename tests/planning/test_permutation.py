@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -107,3 +108,12 @@ def test_vertices_bring_what_they_have(colours, tangents):
     effects = primitive_effects(SimpleNamespace(colours=colours, tangents=tangents))
     assert (Effect.VERTEX_COLOR in effects) == (colours is not None)
     assert (Effect.TANGENTS in effects) == (tangents is not None)
+
+
+def test_vertices_tint_a_grey_metal_and_no_dielectric():
+    film = Material(pbr=MetallicRoughness(metallic_factor=0.5), iridescence=Iridescence(factor=1.0))
+    plan = replace(plan_material(film, 0), grey=frozenset({"dielectric", "metal"}))
+    assert {"GREY_DIELECTRIC", "GREY_METAL"} <= set(permutation(plan, ALL - {Effect.VERTEX_COLOR}, ()))
+    tinted = permutation(plan, ALL, {Effect.VERTEX_COLOR})
+    assert "GREY_DIELECTRIC" in tinted
+    assert "GREY_METAL" not in tinted

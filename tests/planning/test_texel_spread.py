@@ -21,6 +21,13 @@ def test_a_checkerboard_spreads_by_half_its_contrast_on_every_level() -> None:
     assert spread.greatest == pytest.approx(0.4, rel=1e-4)
 
 
+def test_a_step_of_one_byte_is_a_spread() -> None:
+    board = (100 + np.indices((64, 64)).sum(axis=0) % 2).astype(np.uint8)
+    spread = texel_spread(board)
+    assert spread.usual == pytest.approx(0.5 / 255.0, rel=0.02)
+    assert spread.greatest == pytest.approx(0.5 / 255.0, rel=0.02)
+
+
 def test_the_greatest_spread_is_that_of_some_whole_block() -> None:
     g = np.random.default_rng(3)
     texels = g.integers(0, 256, (128, 128), np.uint8)
