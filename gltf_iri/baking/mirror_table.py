@@ -15,7 +15,7 @@ from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.yeh_spectral import evaluate_yeh_spectral
-from gltf_iri.planning.film_table import Texel
+from gltf_iri.planning.film_table import Texel, texel_bytes
 
 __all__ = ["BakedMirrors", "MirrorTable", "bake_mirrors"]
 
@@ -33,8 +33,8 @@ class MirrorTable:
 
     @property
     def bytes(self) -> int:
-        """Memory of one mirror's texels, which OpenGL keeps as RGBA."""
-        return 4 * self.nodes * (2 if self.texel == "f2" else 4)
+        """Memory of one mirror's texels."""
+        return self.nodes * texel_bytes(self.texel)
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,7 @@ from gltf_iri.errors import UsageError
 from gltf_iri.optics.dfg import dfg_terms
 from gltf_iri.optics.facet_mean import mean_cosine
 from gltf_iri.optics.fresnel import f_schlick
-from gltf_iri.planning.film_table import FilmTable, TableAxis, Texel
+from gltf_iri.planning.film_table import FilmTable, TableAxis, Texel, texel_bytes
 from gltf_iri.planning.reach import Lobe, Reach, Span
 
 __all__ = ["BYTES_MAX", "fit_table"]
@@ -46,7 +46,6 @@ _ROUNDS: Final = 4
 _CHECKS: Final = 5
 
 _NODES_MAX: Final = 4096
-_TEXEL_BYTES: Final = 8  # of half precision
 _DOUBTFUL: Final = 2.0  # a first guess may ask for more than is wanted in the end
 
 _ZERO: Final = Span.at(0.0)
@@ -262,7 +261,7 @@ def _smallest(errors: Sequence[AxisErrors], nodes: Sequence[int], target: float)
 
     cells: list[float] = [n - 1.0 for n in nodes]
     while not keeps(cells):
-        if math.prod(c + 1.0 for c in cells) * _TEXEL_BYTES > BYTES_MAX * _DOUBTFUL:
+        if math.prod(c + 1.0 for c in cells) * texel_bytes("f2") > BYTES_MAX * _DOUBTFUL:
             return None
         cells = [1.1 * c for c in cells]
     for factor in _FACTORS:

@@ -26,6 +26,7 @@ from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.film_table import FilmTable, Quantity, TableAxis, Texel
 from gltf_iri.planning.reach import Lobe, Span
+from gltf_iri.planning.way import look_up_key
 
 __all__ = ["Tables", "film_entry", "film_tables", "look_ups", "set_parts", "table_label"]
 
@@ -74,7 +75,6 @@ def film_entry(
 ) -> Tables:
     """Return filled tables of one size, each film with its points."""
     everywhere = film_of(points)
-    axes = len(baked[0].table.axes)
 
     def colours(backend: str) -> Float64:
         pairs = zip(baked, points, strict=True)
@@ -82,7 +82,7 @@ def film_entry(
 
     return Tables(
         table_label(baked[0].table),
-        f"table of {axes} axes",
+        look_up_key(len(baked[0].table.axes)),
         colours,
         lambda backend: _looked_up(baked[0], everywhere, backend),
         truth,
@@ -156,7 +156,7 @@ def look_ups(film: Film, lobe: Lobe) -> Iterator[Tables]:
 def table_label(table: FilmTable) -> str:
     """Return what people read for a table: "table: cos_theta 64, thickness_nm 128, RGBA16F"."""
     axes = ", ".join(f"{axis.quantity} {axis.nodes}" for axis in table.axes)
-    return f"table: {axes}, {'RGBA16F' if table.texel == 'f2' else 'RGBA32F'}"
+    return f"table: {axes}, {table.format}"
 
 
 def _sizes(varying: Sequence[Quantity]) -> Iterator[Mapping[Quantity, int]]:

@@ -18,6 +18,7 @@ from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.planning.film_table import FilmTable, TableAxis, Texel
 from gltf_iri.planning.reach import Span
+from gltf_iri.planning.way import look_up_key
 
 __all__ = ["mirror_tables"]
 
@@ -79,7 +80,7 @@ def _entry(
 
     return Tables(
         table_label(table),
-        "table of 1 axes",
+        look_up_key(1),
         colours,
         lambda backend: look_up(baked[0], cosine.reshape(-1), 0.0, black, backend=backend),
         truth,

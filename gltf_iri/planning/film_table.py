@@ -8,12 +8,17 @@ from typing import Any, Literal
 
 from gltf_iri.planning.reach import Lobe, Span
 
-__all__ = ["FilmTable", "Quantity", "TableAxis", "Texel"]
+__all__ = ["FilmTable", "Quantity", "TableAxis", "Texel", "texel_bytes"]
 
 Texel = Literal["f2", "f4"]  # half or single precision
 
 # In this order wherever a table has them; every table has the first.
 Quantity = Literal["cos_theta", "thickness_nm", "base_f0", "roughness", "spread_nm"]
+
+
+def texel_bytes(texel: Texel) -> int:
+    """Return the memory of one texel, which OpenGL keeps as RGBA."""
+    return 4 * (2 if texel == "f2" else 4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,8 +67,13 @@ class FilmTable:
 
     @property
     def bytes(self) -> int:
-        """Memory of the texels, which OpenGL keeps as RGBA."""
-        return 4 * math.prod(self.shape) * (2 if self.texel == "f2" else 4)
+        """Memory of the texels."""
+        return math.prod(self.shape) * texel_bytes(self.texel)
+
+    @property
+    def format(self) -> str:
+        """What OpenGL calls its texels."""
+        return "RGBA16F" if self.texel == "f2" else "RGBA32F"
 
     def axis(self, quantity: Quantity) -> TableAxis | None:
         """Return the axis of `quantity`, None where it does not vary."""
@@ -74,7 +84,7 @@ class FilmTable:
         return {
             "lobe": self.lobe,
             "axes": [axis.to_json() for axis in self.axes],
-            "texel": "RGBA16F" if self.texel == "f2" else "RGBA32F",
+            "texel": self.format,
             "bytes": self.bytes,
             "delta_e": self.delta_e,
         }

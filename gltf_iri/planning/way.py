@@ -10,13 +10,18 @@ from typing import Any, Final
 from gltf_iri.planning.film_table import FilmTable
 from gltf_iri.planning.method import ParameterValue, parameters_text
 
-__all__ = ["AVERAGED", "NO_FILM", "Way"]
+__all__ = ["AVERAGED", "NO_FILM", "Way", "look_up_key"]
 
 # Stands in the map of costs and in `Way.label` for a film that is left out.
 NO_FILM: Final = "no film"
 
 # Follows the label of a method in the map of costs where it averages over thicknesses within a pixel.
 AVERAGED: Final = ", averaged over thickness"
+
+
+def look_up_key(axes: int) -> str:
+    """Return what the map of costs calls a look-up in a table of so many axes."""
+    return f"table of {axes} axes"
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,7 +50,7 @@ class Way:
         if self.method is None:
             return NO_FILM
         if self.tables:
-            return f"table of {max(len(table.axes) for table in self.tables)} axes"
+            return look_up_key(max(len(table.axes) for table in self.tables))
         return ", ".join(filter(None, (self.method, parameters_text(self.parameters))))
 
     def to_json(self) -> dict[str, Any]:
