@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -34,6 +35,7 @@ Rows = NDArray[np.floating[Any]]
 
 # Rows that stand for all where no reach says what they are.
 _LOOKED_AT: Final = 1 << 14
+_GOLDEN: Final = 0.5 * (math.sqrt(5.0) - 1.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,8 +162,9 @@ def _way(films: ArrayFilms, rows: Rows, spans: Mapping[str, Span], budget: float
     reach = reach_of_films(films, spans)
     if reach is not None:
         return way_for_films(reach, budget, count=len(rows), white=white)
-    step = -(-len(rows) // _LOOKED_AT)
-    block = np.asarray(rows[::step], dtype=np.float64)
+    # Not every so many rows: those of a flattened grid would all have one angle or one thickness.
+    share = (0.5 + _GOLDEN * np.arange(min(len(rows), _LOOKED_AT))) % 1.0
+    block = np.asarray(rows[np.unique((len(rows) * share).astype(np.intp))], dtype=np.float64)
     (lobe,) = films.bases  # a material's films have a reach
     device = choose_backend("auto", len(rows), ("numpy", "numba"), "table")
     return way_for_film(films.film(block, lobe), budget, device=device, white=white).way
