@@ -66,6 +66,8 @@ def evaluate_within(
 ) -> Evaluation:
     """Return the colours of `subject` by the cheapest method that keeps `budget`; `.delta_e` is its bound.
 
+    Its price by the map of costs is `.ns_per_colour`.
+
     Mirrors that are films (`gltf_iri.planning.mirror`) are computed as films; the method tells so.
 
     Raises UsageError as `way_for_film` and `evaluate`.
@@ -80,7 +82,7 @@ def evaluate_within(
     method = str(way.method)
     taken = device if device in METHODS[method].backends else "numpy"
     done = evaluate(method, subject, white=white, backend=taken, parameters=way.parameters)
-    return replace(done, delta_e=way.delta_e)
+    return replace(done, delta_e=way.delta_e, ns_per_colour=way.ns_per_colour)
 
 
 def _film_of(mirror: Mirror) -> Film | None:

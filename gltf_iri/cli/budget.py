@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from gltf_iri.cli.common import note
+from gltf_iri.cli.common import material_label, note, print_table, progress
 
 if TYPE_CHECKING:
     from gltf_iri.baking.baked import BakedTable
@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     from gltf_iri.scene.load import Model
     from gltf_iri.scene.model import Environment, Scene
 
-__all__ = ["baked_tables", "budget_option", "check_choice", "plan_scene", "way_rows"]
+__all__ = ["baked_tables", "budget_option", "check_choice", "nanoseconds", "plan_scene", "print_ways"]
+__all__ += ["way_rows", "ways_json"]
 
 _BOTH = "either chooses the method"
 _WHY = {"reference": "rays take any method at its full length, and a --method names it"}
@@ -54,9 +55,8 @@ def plan_scene(
     white: str = "D65",
     device: Device = "glsl",
     with_unused: bool = False,
-    advance: Callable[[], None] = lambda: None,
 ) -> tuple[MaterialPlan, ...]:
-    """Return the plans of `model` for a picture of `size`, by `method` or within `budget`."""
+    """Return the plans of `model` for a picture of `size`, by `method` or within `budget`, with progress."""
     if budget is None:
         from gltf_iri.planning.decide import plan_materials
 
@@ -65,43 +65,99 @@ def plan_scene(
         )
     from gltf_iri.budgets.plans import plans_within
 
-    return plans_within(
-        model,
-        scene,
-        budget,
-        size_pixels=size[0] * size[1],
-        has_image_light=environment is not None and bool(environment.radiance.any()),
-        white=white,
-        device=device,
-        with_unused=with_unused,
-        advance=advance,
-    )
+    with progress("Planning", len(model.materials)) as advance:
+        return plans_within(
+            model,
+            scene,
+            budget,
+            size_pixels=size[0] * size[1],
+            has_image_light=environment is not None and bool(environment.radiance.any()),
+            white=white,
+            device=device,
+            with_unused=with_unused,
+            advance=advance,
+        )
 
 
 def baked_tables(
-    plans: Sequence[MaterialPlan], white: str = "D65", advance: Callable[[], None] = lambda: None
+    plans: Sequence[MaterialPlan], white: str = "D65"
 ) -> Mapping[int, Mapping[Lobe, BakedTable]]:
     """Return the filled tables of `plans`, from the cache where they lie there; what ails it is noted."""
-    if not any(plan.way is not None and plan.way.tables for plan in plans):
+    count = sum(len(plan.way.tables) for plan in plans if plan.way is not None)
+    if not count:
         return {}
     from gltf_iri.baking.cache import TableCache
     from gltf_iri.baking.fill import bake_plans
 
     cache = TableCache()
-    tables = bake_plans(plans, white, cache=cache, advance=advance)
+    with progress("Filling tables", count) as advance:
+        tables = bake_plans(plans, white, cache=cache, advance=advance)
     for text in cache.notes:
         note(text)
     return tables
 
 
-def way_rows(plan: MaterialPlan) -> list[tuple[str, str]]:
-    """Return what `plan` prints of a material's way: its cost and error, and each table."""
+def way_rows(
+    plan: MaterialPlan, tables: Mapping[Lobe, BakedTable] | None = None
+) -> Iterator[tuple[str, str]]:
+    """Yield what is printed of a material's way: its cost and error, and each table.
+
+    tables : those filled for it, which tell whether they lay in the cache.
+    """
+    from gltf_iri.budgets.search import figure
+
     way: Any = plan.way
     if way is None:
-        return []
-    rows = [("way", f"{way.label}: ΔE ≤ {way.delta_e:.2g}, {way.ns_per_colour:.3g} ns a colour")]
+        return
+    yield "way", f"{way.label}: ΔE ≤ {figure(way.delta_e)}, {nanoseconds(way.ns_per_colour)} a colour"
     for table in way.tables:
         axes = " × ".join(f"{axis.quantity} {axis.nodes}" for axis in table.axes)
-        texel = table.to_json()["texel"]
-        rows.append(("table", f"{table.lobe}: {axes}, {texel}, {table.bytes / 1024:.0f} KiB"))
-    return rows
+        size = f"{table.bytes} bytes" if table.bytes < 1024 else f"{table.bytes / 1024:.0f} KiB"
+        whence = ""
+        if tables is not None:
+            baked = tables[table.lobe]
+            whence = (
+                ", from the cache" if baked.is_cached else f", filled in {1e3 * baked.filled_in_s:.3g} ms"
+            )
+        yield "table", f"{table.lobe}: {axes}, {table.to_json()['texel']}, {size}{whence}"
+
+
+def print_ways(plans: Sequence[MaterialPlan], tables: Mapping[int, Mapping[Lobe, BakedTable]]) -> None:
+    """Print how each film of `plans` was computed, and why so, where a budget chose it."""
+    rows = [
+        (label if row == 0 else "", what, told)
+        for plan in plans
+        if plan.way is not None
+        for label in [material_label(plan.index, plan.name)]
+        for row, (what, told) in enumerate(
+            [*way_rows(plan, tables.get(plan.index, {})), ("why", plan.method_reason)]
+        )
+    ]
+    if rows:
+        print_table(("material", "", ""), rows)
+
+
+def ways_json(
+    plans: Sequence[MaterialPlan], tables: Mapping[int, Mapping[Lobe, BakedTable]]
+) -> list[dict[str, Any]]:
+    """Return what `print_ways` prints; each table tells its filling, now or when it came into the cache."""
+    return [
+        {
+            "material": plan.index,
+            "name": plan.name,
+            **plan.way.to_json(),
+            "reason": plan.method_reason,
+            "tables": [
+                table.to_json() | {"is_cached": baked.is_cached, "filled_in_s": baked.filled_in_s}
+                for table in plan.way.tables
+                for baked in [tables[plan.index][table.lobe]]
+            ],
+        }
+        for plan in plans
+        if plan.way is not None
+    ]
+
+
+def nanoseconds(ns: float) -> str:
+    """Return a price in words."""
+    return f"{ns:.3g} ns" if ns < 1000.0 else f"{ns:,.0f} ns"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from gltf_iri.cli.budget import baked_tables, budget_option, check_choice, plan_scene
+from gltf_iri.cli.budget import baked_tables, budget_option, check_choice, plan_scene, print_ways
 from gltf_iri.cli.common import (
     file_argument,
     json_option,
@@ -117,6 +117,8 @@ def command(
             comparison = replace(comparison, notes=(*comparison.notes, EMPTY_PICTURE))
         files = write_report(comparison, folder)
         advance()
+    if not as_json:
+        print_ways([material.plan for material in comparison.materials], tables)
     _tell(comparison, files, as_json=as_json)
     if not comparison.agrees:
         raise AssetError(f"GLSL and Python disagree beyond tolerance; see {files['page']}", file=file)
@@ -195,7 +197,7 @@ def _row(material: Mapping[str, Any]) -> tuple[str, ...]:
     )
     return (
         material_label(material["index"], material["name"]),
-        material["method"] or "no film",
+        material["way"]["label"] if material["way"] else material["method"] or "no film",
         str(material["glsl_vs_python"]["pixels"]),
         *map(_figure, figures),
     )

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gltf_iri.backends import BACKENDS
-from gltf_iri.cli.budget import budget_option, check_choice
+from gltf_iri.cli.budget import budget_option, check_choice, nanoseconds
 from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
 from gltf_iri.cli.evaluate_array import DEFAULT_COLUMNS, array_to_array
 from gltf_iri.cli.evaluate_subject import (
@@ -176,7 +176,11 @@ def _print(result: dict[str, Any]) -> None:
         for row, specular, weight in zip(rows, result["specular"], result["base_weight"], strict=True):
             row += [*(f"{v:.6f}" for v in specular), f"{weight:.6f}"]
     method = ", ".join(filter(None, (result["method"], parameters_text(result["parameters"]))))
-    kept = f", ΔE ≤ {result['delta_e']:.2g}" if "delta_e" in result else ""
+    kept = ""
+    if "delta_e" in result:
+        from gltf_iri.budgets.search import figure
+
+        kept = f", ΔE ≤ {figure(result['delta_e'])} for {nanoseconds(result['ns_per_colour'])} a colour"
     title = f"{method}{kept}, by {result['backend']}, {result['white']} white, linear Rec.709"
     if "material" in result:
         label = material_label(result["index"], result["material"])

@@ -149,11 +149,16 @@ def _films_of_material(
 
 def _print(report: ArrayReport) -> None:
     threads = "1 thread" if report.threads == 1 else f"{report.threads} threads"
-    kept = "" if report.delta_e is None else f", ΔE ≤ {report.delta_e:.2g}"
+    kept = ""
+    if report.delta_e is not None:
+        from gltf_iri.budgets.search import figure
+
+        kept = f", ΔE ≤ {figure(report.delta_e)}"
     held = "" if report.anonymous_bytes is None else f", {report.anonymous_bytes / 1e6:.0f} MB of memory"
     click.echo(
         f"{report.rows:,} colours are in {report.out}: {report.way}, by {report.backend}, {threads}{kept}; "
-        f"{report.seconds:.2f} s, {report.ns_per_colour:.3g} ns a colour{held}."
+        f"{report.seconds:.2f} s after {report.planning_s:.2f} s of planning, "
+        f"{report.ns_per_colour:.3g} ns a colour{held}."
     )
     for case, rows in report.undefined.items():
         note(f"the method leaves undefined: {case}, in {rows:,} rows.")

@@ -133,7 +133,9 @@ def from_file(
         backend=how.backend,
         parameters=how.parameters if way is None else way.parameters,
     )
-    film = done.film if way is None else replace(done.film, delta_e=way.delta_e)
+    film = done.film
+    if way is not None:
+        film = replace(film, delta_e=way.delta_e, ns_per_colour=way.ns_per_colour)
     result = _result(cosines, film)
     result |= {"material": plan.name, "index": index, "thickness_nm": done.thickness_nm}
     result |= {"thickness_range_nm": done.thickness_range_nm, "factor": done.factor}
@@ -187,7 +189,11 @@ def _result(cosines: tuple[float, ...], evaluation: Evaluation) -> dict[str, Any
     chosen = {}
     if evaluation.delta_e is not None:
         label = Way(evaluation.method, evaluation.parameters).label
-        chosen = {"way": label, "delta_e": evaluation.delta_e}
+        chosen = {
+            "way": label,
+            "delta_e": evaluation.delta_e,
+            "ns_per_colour": evaluation.ns_per_colour,
+        }
     return chosen | {
         "method": evaluation.method,
         "white": evaluation.white,

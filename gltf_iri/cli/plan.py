@@ -16,7 +16,6 @@ from gltf_iri.cli.common import (
     note,
     print_json,
     print_table,
-    progress,
 )
 from gltf_iri.cli.picture_options import SIZE
 
@@ -59,17 +58,7 @@ def command(
     except AssetError as error:
         notes.append(f"The shader permutations are left out: {error}")
         notes.append("Colours of vertices may be any, for all the plan knows.")
-    with progress("Planning", len(model.materials)) as advance:
-        plans = plan_scene(
-            model,
-            scene,
-            method,
-            budget,
-            size=size,
-            environment=white(),
-            with_unused=True,
-            advance=advance,
-        )
+    plans = plan_scene(model, scene, method, budget, size=size, environment=white(), with_unused=True)
     unread = [
         f"{told} It may hold anything, for all the plan knows." for told in unread_images(model.document)
     ]

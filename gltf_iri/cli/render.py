@@ -8,7 +8,14 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from gltf_iri.cli.budget import baked_tables, budget_option, check_choice, plan_scene
+from gltf_iri.cli.budget import (
+    baked_tables,
+    budget_option,
+    check_choice,
+    plan_scene,
+    print_ways,
+    ways_json,
+)
 from gltf_iri.cli.common import file_argument, json_option, note, print_json, progress
 from gltf_iri.cli.drawing import Drawn, opengl, rays
 from gltf_iri.cli.picture_options import (
@@ -140,11 +147,7 @@ def command(
         "passes": {name: round(spent, 3) for name, spent in drawn.passes.items()},
         "method": next((plan.method for plan in used if plan.method is not None), None),
         "budget": budget,
-        "ways": [
-            {"material": plan.index, "name": plan.name, **plan.way.to_json()}
-            for plan in used
-            if plan.way is not None
-        ],
+        "ways": ways_json(used, tables),
         "environment": environment.name if environment else None,
         "exposure": exposure_ev,
         "camera": views[0].name,
@@ -160,6 +163,7 @@ def command(
         return
     for text in (*notes, *_not_drawn(used)):
         note(text)
+    print_ways(used, tables)
     click.echo(_summary(told, count=len(views)))
 
 

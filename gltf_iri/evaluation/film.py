@@ -208,6 +208,7 @@ class Evaluation:
     undefined : for each case that occurred and that the method leaves undefined, the mask (...) of its rows.
     parameters : what the method's parameters were.
     delta_e : what the p95 of CIEDE2000 lies below, where a budget chose the method; else None.
+    ns_per_colour : what the map of costs says that a colour costs by it, where a budget chose; else None.
     """
 
     rgb: Float64
@@ -217,3 +218,4 @@ class Evaluation:
     undefined: Mapping[str, NDArray[np.bool_]] = field(default_factory=dict)
     parameters: Mapping[str, ParameterValue] = field(default_factory=dict)
     delta_e: float | None = None
+    ns_per_colour: float | None = None

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from gltf_iri.budgets.search import figure
+from gltf_iri.cli.budget import nanoseconds
 from gltf_iri.cli.main import run
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.planning.costs import shipped_costs
@@ -57,7 +59,10 @@ def test_evaluate_tells_the_way_and_keeps_the_budget(capsys: pytest.CaptureFixtu
     assert found["way"].startswith(found["method"])
     assert np.percentile(delta_e_2000(found["rgb"], truth["rgb"]), 95) <= found["delta_e"]
     assert run([*film, "--budget", "0.5"]) == 0
-    assert f"ΔE ≤ {found['delta_e']:.2g}" in capsys.readouterr().out
+    assert (
+        f"ΔE ≤ {figure(found['delta_e'])} for {nanoseconds(found['ns_per_colour'])} a"
+        in capsys.readouterr().out
+    )
 
 
 def test_evaluate_takes_mirrors_and_materials(films: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -83,7 +88,7 @@ def test_plan_tells_the_way_its_cost_and_its_error(films: str, capsys: pytest.Ca
     assert "too weak to be seen: without it ΔE ≤" in weak["skipped"]["iridescence"]
     assert run(["plan", films, "--budget", "0.5"]) == 0
     shown = capsys.readouterr().out
-    assert f"{way['label']}: ΔE ≤ {way['delta_e']:.2g}" in shown
+    assert f"{way['label']}: ΔE ≤ {figure(way['delta_e'])}, {way['ns_per_colour']:.3g} ns" in shown
 
 
 def test_a_budget_of_zero_plans_the_truth(films: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -129,3 +134,21 @@ def test_wrong_calls_say_so(
 def test_settings_and_rays_choose_by_themselves(films: str, tmp_path: Path) -> None:
     assert run(["evaluate", "--budget", "1", "--set", "tolerance=1e-3"]) == 2
     assert run(["render", films, "-o", str(tmp_path / "out.png"), "--budget", "1", "--reference"]) == 2
+
+
+def test_render_tells_each_film_s_way_and_whether_its_table_lay_in_the_cache(
+    gl_context: object, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = str(Path(__file__).parents[2] / "samples" / "beetle" / "beetle.glb")
+    drawing = ["render", file, "-o", str(tmp_path / "out.png"), "--size", "32x24", "--env", "white"]
+    drawing += ["--budget", "0.5"]
+    assert run(drawing) == 0
+    assert "bytes, filled in " in capsys.readouterr().out
+    assert run(drawing) == 0
+    assert "bytes, from the cache" in capsys.readouterr().out
+    (way,) = answer(capsys, *drawing)["ways"]
+    assert way["label"].startswith("table of ")
+    assert [table["is_cached"] for table in way["tables"]] == [True]
+    assert way["reason"].startswith("of ")
+    assert run(["plan", file, "--budget", "0.5"]) == 0
+    assert "the cache" not in capsys.readouterr().out
