@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from gltf_iri.budgets.candidates import resolves_in_glsl
 from gltf_iri.budgets.choose import Asked, choose_way
 from gltf_iri.budgets.errors import FilmErrors
+from gltf_iri.budgets.plans import plan_within
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.material.material import Material
+from gltf_iri.material.specular import Specular
+from gltf_iri.material.texture import TextureInfo
 from gltf_iri.planning.reach import Reach, Span
 
 NONE = Span.at(0.0)
@@ -43,3 +50,21 @@ def test_the_truth_is_no_way_where_its_twin_does_not_resolve_the_fringes() -> No
     assert choose_way(near, asked, "it").way.method == "spectral"
     with pytest.raises(UsageError, match="No way keeps"):
         choose_way(far, asked, "it")
+
+
+def test_a_film_is_kept_where_nobody_knows_what_the_bare_surface_reflects() -> None:
+    thin = Iridescence(factor=1.0, film_ior=1.4, thickness_max_nm=0.2)
+    asked = Asked(5.0, 1e6, "glsl")
+    uniform, painted = (
+        plan_within(Material(specular=Specular(0.9, texture), iridescence=thin), 0, asked)
+        for texture in (None, TextureInfo(0))
+    )
+    assert uniform.method is None
+    assert painted.method is not None
+
+
+def test_tables_answer_for_the_image_light_that_is_asked_for() -> None:
+    rough = replace(glass(Span.at(400.0), Span.at(1.0)), roughness=Span.at(0.6))
+    for has_image_light in (False, True):
+        way = choose_way(rough, Asked(0.3, 1e9, "glsl", has_image_light=has_image_light), "it").way
+        assert [table.axis("roughness") is not None for table in way.tables] == [has_image_light]
