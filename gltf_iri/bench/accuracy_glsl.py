@@ -19,11 +19,11 @@ from gltf_iri.evaluation.film import Film
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.planning.method import METHODS, Domain, method_names
 from gltf_iri.planning.settings import ACCURACY_SETTINGS, settings_of, with_defaults
-from gltf_iri.planning.way import AVERAGED, Way
+from gltf_iri.planning.way import AVERAGED, ONE_CHANNEL, Way
 from gltf_iri.rendering.probe import Probe
 from gltf_iri.rendering.table_call import table_call, texture_call
 from gltf_iri.rendering.timed_calls import TimedCall, call_colours, time_calls
-from gltf_iri.rendering.timing import averaging_call, twin_call
+from gltf_iri.rendering.timing import averaging_call, one_channel_call, twin_call
 
 if TYPE_CHECKING:
     import moderngl
@@ -96,6 +96,10 @@ def _twins(
                 averaged = way + AVERAGED
                 call = averaging_call(name, subject, _SPREAD_SHARE, WHITE, values)
                 yield call, AccuracyRow(workload, "glsl", averaged, averaged, name, 0.0, None, values)
+            if not chosen and isinstance(subject, Film):
+                grey = way + ONE_CHANNEL
+                call = one_channel_call(name, subject, WHITE, values)
+                yield call, AccuracyRow(workload, "glsl", grey, grey, name, 0.0, None, values)
 
 
 def _table_row(context: moderngl.Context, workload: str, tables: Tables) -> AccuracyRow:

@@ -22,7 +22,7 @@ from gltf_iri.planning.film_table import FilmTable, TableAxis
 from gltf_iri.planning.method import METHODS, truth_of
 from gltf_iri.planning.reach import Lobe, Reach, Span
 from gltf_iri.planning.way import Way
-from gltf_iri.tolerances import GLSL_FILM_DELTA_E
+from gltf_iri.tolerances import GLSL_FILM_DELTA_E, MIXED_LOBES_DELTA_E
 
 __all__ = ["Asked", "choose_way", "way_for_films"]
 
@@ -81,13 +81,16 @@ def choose_way(reach: Reach, asked: Asked, subject: str, errors: FilmErrors | No
     if asked.bare_at_grazing is not None and not asked.is_film_needed:
         candidates = (without_film(asked.device, workloads), *candidates)
     floor = GLSL_FILM_DELTA_E if asked.device == "glsl" else 0.0
+    mixed = MIXED_LOBES_DELTA_E if len(errors.lobes) > 1 else 1.0
 
     def measure(candidate: Candidate, allowed: float) -> Measured:
         if candidate.method is None:
-            return errors.without_film(allowed)
-        return errors.of_method(candidate.method, candidate.parameters, allowed, floor=floor)
+            found = errors.without_film(allowed / mixed)
+        else:
+            found = errors.of_method(candidate.method, candidate.parameters, allowed / mixed, floor=floor)
+        return Measured(mixed * found.delta_e, found.holds)
 
-    tables = _tables(errors, asked, floor) if asked.has_tables and asked.white in WHITES else None
+    tables = _tables(errors, asked, floor, mixed) if asked.has_tables and asked.white in WHITES else None
     chosen = cheapest_way(candidates, measure, budget, asked.colours, subject=subject, tables=tables)
     if chosen.way.method is None:
         return Chosen(chosen.way, _without_film(reach, chosen.way))
@@ -106,22 +109,22 @@ def way_for_films(reach: Reach, budget: float, *, count: int, white: str | Light
     return choose_way(reach, asked, "these films").way
 
 
-def _tables(errors: FilmErrors, asked: Asked, floor: float) -> TableOffer:
-    """Return the tables of all lobes as one way."""
+def _tables(errors: FilmErrors, asked: Asked, floor: float, mixed: float) -> TableOffer:
+    """Return the tables of all lobes as one way; `mixed` is what mixing may make of an error."""
     reach = errors.reach
 
     def fit(budget: float) -> Way | None:
         from gltf_iri.baking.fill import filling_ns
         from gltf_iri.baking.resolution import fit_table
 
-        if budget <= floor:
+        if budget / mixed <= floor:
             return None
         tables = []
         for lobe in errors.lobes:
             table = fit_table(
                 reach,
                 lobe,
-                budget - floor,
+                budget / mixed - floor,
                 white="D65" if asked.white == "D65" else "E",
                 has_image_light=asked.has_image_light,
                 has_spread=asked.has_spread,
@@ -136,7 +139,7 @@ def _tables(errors: FilmErrors, asked: Asked, floor: float) -> TableOffer:
             tuple(tables),
             sum(table_ns(asked.device, table) for table in tables),
             sum(filling_ns(table) for table in tables),
-            max(table.delta_e for table in tables) + floor,
+            mixed * (max(table.delta_e for table in tables) + floor),
         )
 
     return TableOffer(sum(_least_table_ns(reach, lobe, asked) for lobe in errors.lobes), fit)

@@ -124,8 +124,14 @@ def _rows(plan: MaterialPlan, saved: Mapping[str, float]) -> Iterator[Sequence[s
             yield "", what, told
     for effect, reason in plan.skipped.items():
         if effect not in plan.absent:
-            ns = saved.get(effect.value)
-            told = "" if ns is None else f" (saves {ns:.3g} ns a pixel)"
-            yield "", "left out", f"{effect.value}: {reason}{told}"
+            yield "", "left out", f"{effect.value}: {reason}{_saving(saved, effect.value)}"
+    for lobe in sorted(plan.grey):
+        told = f"the {lobe}'s base reflects red, green and blue alike{_saving(saved, f'grey-{lobe}')}"
+        yield "", "one channel", told
     for name, reason in plan.not_drawn.items():
         yield "", "not drawn", f"{name}: {reason}"
+
+
+def _saving(saved: Mapping[str, float], what: str) -> str:
+    ns = saved.get(what)
+    return "" if ns is None else f" (saves {ns:.3g} ns a pixel)"

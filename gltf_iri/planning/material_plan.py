@@ -69,6 +69,7 @@ class MaterialPlan:
             "method": self.method,
             "method_reason": self.method_reason,
             "layering": self.layering,
+            "grey": sorted(self.grey),
             "way": None if self.way is None else self.way.to_json(),
             "skipped": {effect.value: reason for effect, reason in self.skipped.items()},
             "not_drawn": dict(self.not_drawn),

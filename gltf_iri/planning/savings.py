@@ -10,7 +10,7 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import DEFAULT_METHOD, find_method
 from gltf_iri.planning.reach import Lobe
-from gltf_iri.planning.way import Way
+from gltf_iri.planning.way import ONE_CHANNEL, Way
 
 __all__ = ["pruned_defines", "saved_ns_per_pixel"]
 
@@ -29,8 +29,8 @@ def saved_ns_per_pixel(
 ) -> dict[str, float]:
     """Return the nanoseconds a pixel that each effect would cost which the file mentions and the plan skips.
 
-    Only what the map knows is named: a texture for each that is not sampled, and the film for each lobe and
-    light that does without.
+    Only what the map knows is named: a texture for each that is not sampled, the film for each lobe and light
+    that does without, and what one channel in place of three saves, as "grey-dielectric" and "grey-metal".
 
     lights : that the film would be evaluated for, image light among them.
     method : of a film that is left out; None for the plan's default.
@@ -77,3 +77,9 @@ def _savings(plan: MaterialPlan, lights: int, costs: Costs, way: Way) -> Iterato
             ns = film_ns(workload_of[effect])
         if ns:
             yield effect.value, ns
+    for lobe in sorted(plan.grey):
+        three, one = (
+            costs.ns_per_colour("glsl", "films", way.label + channels) for channels in ("", ONE_CHANNEL)
+        )
+        if three is not None and one is not None and plan.table(lobe) is None:
+            yield f"grey-{lobe}", lights * max(three - one, 0.0)

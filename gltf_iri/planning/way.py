@@ -10,13 +10,16 @@ from typing import Any, Final
 from gltf_iri.planning.film_table import FilmTable
 from gltf_iri.planning.method import ParameterValue, parameters_text
 
-__all__ = ["AVERAGED", "NO_FILM", "Way", "look_up_key"]
+__all__ = ["AVERAGED", "NO_FILM", "ONE_CHANNEL", "Way", "look_up_key"]
 
 # Stands in the map of costs and in `Way.label` for a film that is left out.
 NO_FILM: Final = "no film"
 
 # Follows the label of a method in the map of costs where it averages over thicknesses within a pixel.
 AVERAGED: Final = ", averaged over thickness"
+
+# And where its base is grey, so that one channel is computed for three.
+ONE_CHANNEL: Final = ", one channel"
 
 
 def look_up_key(axes: int) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Final
 
@@ -18,7 +18,7 @@ from gltf_iri.rendering.twins import find_twin
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["TwinTimes", "averaging_call", "time_twins", "twin_call"]
+__all__ = ["TwinTimes", "averaging_call", "one_channel_call", "time_twins", "twin_call"]
 
 _SIDE: Final = 1024
 
@@ -49,6 +49,21 @@ def twin_call(
         twin.arguments,
         tables=twin.tables,
     )
+
+
+def one_channel_call(
+    method: str,
+    film: Film,
+    white: str = "D65",
+    parameters: Mapping[str, ParameterValue] = MappingProxyType({}),
+) -> TimedCall:
+    """Return the call of the twin of `method` over bases that the compiler sees are grey.
+
+    Raises UsageError as `find_twin`.
+    """
+    call = twin_call(method, film, white, parameters)
+    base = f"a{call.types.index('vec3')}"
+    return replace(call, expression=call.expression.replace(base, f"vec3({base}.x)"))
 
 
 def averaging_call(

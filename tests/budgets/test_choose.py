@@ -16,6 +16,7 @@ from gltf_iri.errors import UsageError
 from gltf_iri.planning.costs import shipped_costs
 from gltf_iri.planning.reach import Reach, Span
 from gltf_iri.planning.way import Way
+from gltf_iri.tolerances import MIXED_LOBES_DELTA_E
 
 POINT = Span.at
 PLAIN = Reach(
@@ -148,3 +149,14 @@ def test_budgets_of_random_materials_hold_and_are_cheap() -> None:
     assert len(rows) == 14
     assert all(row.holds for row in rows)
     assert np.mean([row.is_cheapest for row in rows]) >= 0.9
+
+
+def test_where_lobes_mix_the_larger_error_counts_more() -> None:
+    alone = replace(PLAIN, metallic=POINT(1.0))
+    both = replace(PLAIN, metallic=Span(0.0, 1.0))
+    errors = FilmErrors(both, has_image_light=False).of_method("fourier", {"tolerance": 0.03}, np.inf)
+    assert errors.delta_e > 0.0
+    found = chosen(both, 3.0)
+    measured = FilmErrors(both, has_image_light=False).of_method(str(found.method), found.parameters, np.inf)
+    assert found.delta_e >= MIXED_LOBES_DELTA_E * measured.delta_e
+    assert chosen(alone, 3.0).ns_per_colour < found.ns_per_colour

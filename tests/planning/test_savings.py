@@ -86,3 +86,12 @@ def test_pruned_defines_are_those_of_what_is_mentioned_and_not_compiled():
         plan_material(Material(pbr=DIELECTRIC), 1),
     ]
     assert pruned_defines(plans, ("HAS_DIELECTRIC",)) == ("HAS_METAL", "HAS_IRIDESCENCE")
+
+
+def test_a_grey_base_saves_two_channels(images):
+    priced = {"khr-guarded": 10.0, "khr-guarded, one channel": 7.0}
+    (plan,) = plan_materials([Material(pbr=DIELECTRIC, iridescence=FILM)], document=images)
+    assert plan.grey == {"dielectric"}
+    found = saved_ns_per_pixel(plan, 2, Costs({}, {"glsl": {"films": priced}}))
+    assert found["grey-dielectric"] == 6.0
+    assert "grey-dielectric" not in saved_ns_per_pixel(plan, 2, COSTS)

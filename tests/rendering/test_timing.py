@@ -10,7 +10,7 @@ from gltf_iri.bench.film_set import film_set
 from gltf_iri.errors import UsageError
 from gltf_iri.rendering.context import renderer_name
 from gltf_iri.rendering.timed_calls import call_colours, time_calls
-from gltf_iri.rendering.timing import averaging_call, time_twins, twin_call
+from gltf_iri.rendering.timing import averaging_call, one_channel_call, time_twins, twin_call
 
 
 def test_each_method_has_its_time_on_this_renderer(gl_context: moderngl.Context) -> None:
@@ -36,3 +36,11 @@ def test_averaging_over_thickness_is_timed_by_the_twin_that_averages(gl_context:
     assert np.abs(averaged - at_mean).max() > 1e-3
     with pytest.raises(UsageError, match="cannot average"):
         averaging_call("khr", film, 0.05)
+
+
+def test_one_channel_of_a_grey_base_is_all_three(gl_context: moderngl.Context) -> None:
+    film = film_set(16)
+    three, one = (
+        call_colours(gl_context, make("fourier", film), 16) for make in (twin_call, one_channel_call)
+    )
+    assert np.abs(one - three).max() < 1e-6
