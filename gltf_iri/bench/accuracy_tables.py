@@ -139,12 +139,15 @@ def look_ups(film: Film, lobe: Lobe) -> Iterator[Tables]:
     nodes: dict[Quantity, int] = {"cos_theta": 64, "thickness_nm": 64, "base_f0": 16, "roughness": 8}
     whole = table_of(part, nodes, "f2")
     roughness = TableAxis("roughness", Span(0.0, 1.0), nodes["roughness"])
+    spread_nm = TableAxis("spread_nm", Span(0.0, 50.0), 8)
     cos_theta, thickness_nm, base_f0 = whole.axes
+    # A base is read once a channel: for films on grey bases no axis of it may be timed.
+    third, fourth = (base_f0, roughness) if lobe == "metal" else (roughness, spread_nm)
     for axes in (
         (cos_theta,),
         (cos_theta, thickness_nm),
-        (cos_theta, thickness_nm, base_f0 if lobe == "metal" else roughness),
-        (cos_theta, thickness_nm, base_f0, roughness),
+        (cos_theta, thickness_nm, third),
+        (cos_theta, thickness_nm, third, fourth),
     ):
         table = replace(whole, axes=axes)
         texels = g.random((*table.shape, 3)).astype(np.float16)

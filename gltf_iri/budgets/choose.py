@@ -90,7 +90,7 @@ def choose_way(reach: Reach, asked: Asked, subject: str, errors: FilmErrors | No
             found = errors.of_method(candidate.method, candidate.parameters, allowed / mixed, floor=floor)
         return Measured(mixed * found.delta_e, found.holds)
 
-    tables = _tables(errors, asked, floor, mixed) if asked.has_tables and asked.white in WHITES else None
+    tables = _tables(errors, asked, floor) if asked.has_tables and asked.white in WHITES else None
     chosen = cheapest_way(candidates, measure, budget, asked.colours, subject=subject, tables=tables)
     if chosen.way.method is None:
         return Chosen(chosen.way, _without_film(reach, chosen.way))
@@ -109,22 +109,22 @@ def way_for_films(reach: Reach, budget: float, *, count: int, white: str | Light
     return choose_way(reach, asked, "these films").way
 
 
-def _tables(errors: FilmErrors, asked: Asked, floor: float, mixed: float) -> TableOffer:
-    """Return the tables of all lobes as one way; `mixed` is what mixing may make of an error."""
+def _tables(errors: FilmErrors, asked: Asked, floor: float) -> TableOffer:
+    """Return the tables of all lobes as one way."""
     reach = errors.reach
 
     def fit(budget: float) -> Way | None:
         from gltf_iri.baking.fill import filling_ns
         from gltf_iri.baking.resolution import fit_table
 
-        if budget / mixed <= floor:
+        if budget <= floor:
             return None
         tables = []
         for lobe in errors.lobes:
             table = fit_table(
                 reach,
                 lobe,
-                budget / mixed - floor,
+                budget - floor,
                 white="D65" if asked.white == "D65" else "E",
                 has_image_light=asked.has_image_light,
                 has_spread=asked.has_spread,
@@ -139,7 +139,7 @@ def _tables(errors: FilmErrors, asked: Asked, floor: float, mixed: float) -> Tab
             tuple(tables),
             sum(table_ns(asked.device, table) for table in tables),
             sum(filling_ns(table) for table in tables),
-            mixed * (max(table.delta_e for table in tables) + floor),
+            max(table.delta_e for table in tables) + floor,
         )
 
     return TableOffer(sum(_least_table_ns(reach, lobe, asked) for lobe in errors.lobes), fit)

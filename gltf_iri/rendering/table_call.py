@@ -32,6 +32,9 @@ _LOOK_UP: Final = """
 vec3 timed_table(vec3 base_f0, float thickness_nm, float cos_theta) {{
     Surface s;
     s.iridescence_thickness_nm = thickness_nm;
+#ifdef HAS_IRIDESCENCE_THICKNESS_SPREAD
+    s.iridescence_thickness_std_nm = 0.05 * thickness_nm;
+#endif
     return {lobe}_table(s, base_f0, Lobe(cos_theta, cos_theta, cos_theta, 1.0, 0.0));
 }}"""
 
@@ -82,7 +85,8 @@ def texture_call(context: moderngl.Context, beside: TimedCall) -> TimedCall:
 def _defines(table: FilmTable) -> tuple[str, ...]:
     """Return what a material with this table alone is drawn with."""
     lobe = Effect.DIELECTRIC if table.lobe == "dielectric" else Effect.METAL
-    plan = MaterialPlan(
-        0, "", (lobe, Effect.IRIDESCENCE), _FILLED_BY, "", "core", way=Way(_FILLED_BY, tables=(table,))
-    )
-    return permutation(plan, (), ())
+    effects = [lobe, Effect.IRIDESCENCE]
+    if table.axis("spread_nm") is not None:
+        effects += [Effect.IRIDESCENCE_THICKNESS_TEXTURE, Effect.IRIDESCENCE_THICKNESS_SPREAD]
+    way = Way(_FILLED_BY, tables=(table,))
+    return permutation(MaterialPlan(0, "", tuple(effects), _FILLED_BY, "", "core", way=way), (), ())
