@@ -40,6 +40,7 @@ def _session_context() -> Iterator[moderngl.Context]:
 @pytest.fixture
 def gl_context(_session_context: moderngl.Context) -> Iterator[moderngl.Context]:
     """The one context of the run; a test that leaves an OpenGL error behind fails."""
+    _session_context.__enter__()  # a command that ran since has drawn in a context of its own
     before = _session_context.error
     yield _session_context
     after = _session_context.error

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -103,8 +104,10 @@ def command(
     # matplotlib warns where there is no home to keep its fonts' list in; the figures are the same.
     logging.getLogger("matplotlib").setLevel(logging.ERROR)
     steps = len(STEPS) + 1 + (count_steps(size) if reference else 0)
-    with progress("Comparing", steps) as advance:
-        arguments = (Renderer(create_context()), model, scene, plans, view, environment)
+    context = create_context()
+    with ExitStack() as put_away, progress("Comparing", steps) as advance:
+        put_away.callback(context.release)
+        arguments = (Renderer(context), model, scene, plans, view, environment)
         shown: dict[str, Any] = {
             "size": size,
             "exposure": choose_exposure(exposure, scene, environment),

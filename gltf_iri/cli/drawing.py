@@ -25,10 +25,11 @@ __all__ = ["Brush", "Drawn", "opengl", "rays"]
 
 @dataclass(frozen=True, slots=True)
 class Brush:
-    """What draws: a view's picture, and how often a picture calls `advance`."""
+    """What draws: a view's picture, how often a picture calls `advance`, and how it is put away."""
 
     draw: Callable[[Camera, Callable[[], None]], Frame]
     steps: int
+    release: Callable[[], None] = lambda: None
 
 
 def opengl(
@@ -43,14 +44,19 @@ def opengl(
     from gltf_iri.rendering.context import create_context
     from gltf_iri.rendering.render import Renderer
 
-    renderer = Renderer(create_context())
+    context = create_context()
+    renderer = Renderer(context)
 
     def draw(view: Camera, advance: Callable[[], None]) -> Frame:
         frame = renderer.render(model, scene, plans, view, environment, size=size, tables=tables)
         advance()
         return frame
 
-    return Brush(draw, 1)
+    def release() -> None:
+        renderer.release()
+        context.release()
+
+    return Brush(draw, 1, release)
 
 
 def rays(

@@ -65,6 +65,7 @@ def command(
         for file in files:
             entries.append(make_entry(renderer, file, setup))
             advance()
+    context.release()
     page = write_gallery(entries, setup, folder)
 
     if as_json:

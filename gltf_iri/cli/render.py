@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -118,7 +119,8 @@ def command(
     exposure_ev = choose_exposure(exposure, scene, environment, default="0" if is_linear else "auto")
     subject = (model, scene, plans, environment, size)
     brush = rays(*subject, counts) if reference else opengl(*subject, tables)
-    with progress("Drawing", len(views) * brush.steps + 1) as advance:
+    with ExitStack() as put_away, progress("Drawing", len(views) * brush.steps + 1) as advance:
+        put_away.callback(brush.release)
         drawn = Drawn(brush.draw)
         pictures = drawn.pictures(views, advance)
         written: tuple[Path, ...] = (out,)
