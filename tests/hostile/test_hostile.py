@@ -89,11 +89,8 @@ def test_the_command_line_says_one_sentence_and_leaves_nothing_behind(
     place: Callable[[str], Path],
     gl_context: moderngl.Context,
     tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    # The run's own context: making one for every case would take longer than everything else.
-    monkeypatch.setattr("gltf_iri.rendering.context.create_context", lambda: gl_context)
     out = tmp_path / "out.png"
     call = ["render", str(place(name)), "-o", str(out), "--size", "16x16", "--env", "none"]
     exit_code = run(call)
