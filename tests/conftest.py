@@ -43,7 +43,7 @@ def gl_context(_session_context: moderngl.Context) -> Iterator[moderngl.Context]
     _session_context.__enter__()  # a command that ran since has drawn in a context of its own
     before = _session_context.error
     yield _session_context
-    _session_context.__enter__()
+    _session_context.__enter__()  # so has, perhaps, the test
     after = _session_context.error
     if (before, after) != ("GL_NO_ERROR", "GL_NO_ERROR"):
         pytest.fail(f"OpenGL error state: {before} before the test, {after} after it.")

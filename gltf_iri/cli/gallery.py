@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Literal
 
@@ -61,11 +62,11 @@ def command(
     files = find_assets(paths)
     renderer = Renderer(context)
     entries = []
-    with progress("Drawing", len(files)) as advance:
+    with ExitStack() as put_away, progress("Drawing", len(files)) as advance:
+        put_away.callback(context.release)
         for file in files:
             entries.append(make_entry(renderer, file, setup))
             advance()
-    context.release()
     page = write_gallery(entries, setup, folder)
 
     if as_json:
