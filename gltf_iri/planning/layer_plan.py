@@ -1,0 +1,122 @@
+"""What the plan says about the Bragg layers of a material: which are left, over what, and by which method."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import Any, Literal
+
+from gltf_iri.planning.film_table import Texel, texel_bytes
+from gltf_iri.planning.method import ParameterValue
+from gltf_iri.planning.reach import Span
+
+__all__ = ["LayerTables", "LayersPlan", "PlannedLayer", "Under"]
+
+# What the light that passes all layers meets; "nothing" needs no transmission below the last layer.
+Under = Literal["nothing", "base"]
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedLayer:
+    """One layer that is simulated.
+
+    source : its place in the material's own list.
+    period_nm : d1 + d2, the same everywhere or out of a texture; fill : d1/(d1 + d2).
+    alpha : perceptual roughness squared, ALPHA_MIN at least.
+    """
+
+    source: int
+    n1: float
+    n2: float
+    period_nm: Span
+    fill: float
+    cells: int
+    alpha: float
+
+
+@dataclass(frozen=True, slots=True)
+class LayerTables:
+    """The shape of a stack's tables: each layer's factors over the cosine in the host, and over its period.
+
+    Spectra are held as their means over `bands` bands of wavelengths, and multiplied band by band; the first
+    layer's reflection, which nothing attenuates, as a colour. With is_colour every factor is a colour, and
+    colours are multiplied. Axes are even: cosines from 0 to 1, periods over the layer's span (one node where
+    it does not vary); linear between nodes, as OpenGL filters.
+
+    delta_e : measured; p95 of CIEDE2000 of the stack's colours against the truth over the material's reach.
+    """
+
+    bands: int
+    is_colour: bool
+    cos_nodes: int
+    period_nodes: int
+    texel: Texel
+    delta_e: float
+
+    def bytes(self, layers: int) -> int:
+        """Memory of reflected, transmitted and albedo of so many layers, four bands to a texel."""
+        texels = layers * -(-self.bands // 4) * self.cos_nodes * self.period_nodes
+        return 3 * texels * texel_bytes(self.texel)
+
+
+@dataclass(frozen=True, slots=True)
+class LayersPlan:
+    """Layers, outermost first, in a host of index host_ior, and how their colours are computed.
+
+    method : of the domain "layers"; with tables, what fills them. parameters : its own.
+    delta_e : measured p95 of CIEDE2000 over the material's reach; None without a budget.
+    reason : why this method; simpler : what was left out and why, for people.
+    """
+
+    layers: tuple[PlannedLayer, ...]
+    host_ior: float
+    under: Under
+    method: str
+    parameters: Mapping[str, ParameterValue] = field(default_factory=lambda: MappingProxyType({}))
+    tables: LayerTables | None = None
+    delta_e: float | None = None
+    ns_per_colour: float = 0.0
+    reason: str = ""
+    simpler: tuple[str, ...] = ()
+
+    @property
+    def varies(self) -> bool:
+        """True where a period comes out of a texture."""
+        return any(not layer.period_nm.is_point for layer in self.layers)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return how `plan --json` tells it."""
+        tables = self.tables
+        return {
+            "layers": [
+                {
+                    "source": layer.source,
+                    "n1": layer.n1,
+                    "n2": layer.n2,
+                    "period_nm": [layer.period_nm.low, layer.period_nm.high],
+                    "fill": layer.fill,
+                    "cells": layer.cells,
+                    "alpha": layer.alpha,
+                }
+                for layer in self.layers
+            ],
+            "host_ior": self.host_ior,
+            "under": self.under,
+            "method": self.method,
+            "parameters": dict(self.parameters),
+            "tables": None
+            if tables is None
+            else {
+                "bands": tables.bands,
+                "is_colour": tables.is_colour,
+                "nodes": [tables.cos_nodes, tables.period_nodes],
+                "texel": tables.texel,
+                "bytes": tables.bytes(len(self.layers)),
+                "delta_e": tables.delta_e,
+            },
+            "delta_e": self.delta_e,
+            "ns_per_colour": self.ns_per_colour,
+            "reason": self.reason,
+            "simpler": list(self.simpler),
+        }
