@@ -22,14 +22,15 @@ class PlannedLayer:
     """One layer that is simulated.
 
     source : its place in the material's own list.
-    period_nm : d1 + d2, the same everywhere or out of a texture; fill : d1/(d1 + d2).
+    period_nm : d1 + d2 at the two ends of the plan's `texel`, one number twice where nothing varies; linear
+        between them. fill : d1/(d1 + d2).
     alpha : perceptual roughness squared, ALPHA_MIN at least.
     """
 
     source: int
     n1: float
     n2: float
-    period_nm: Span
+    period_nm: tuple[float, float]
     fill: float
     cells: int
     alpha: float
@@ -41,8 +42,9 @@ class LayerTables:
 
     Spectra are held as their means over `bands` bands of wavelengths, and multiplied band by band; the first
     layer's reflection, which nothing attenuates, as a colour. With is_colour every factor is a colour, and
-    colours are multiplied. Axes are even: cosines from 0 to 1, periods over the layer's span (one node where
-    it does not vary); linear between nodes, as OpenGL filters.
+    colours are multiplied. Axes are even: cosines from 0 to 1, and the period texture's values over the
+    plan's `texel` (one node where it does not vary), which all layers share; linear between nodes, as OpenGL
+    filters.
 
     delta_e : measured; p95 of CIEDE2000 of the stack's colours against the truth over the material's reach.
     """
@@ -64,6 +66,8 @@ class LayerTables:
 class LayersPlan:
     """Layers, outermost first, in a host of index host_ior, and how their colours are computed.
 
+    texel : the values that the period texture (channel G) takes, which every layer's period runs along; a
+        point without one.
     method : of the domain "layers"; with tables, what fills them. parameters : its own.
     delta_e : measured p95 of CIEDE2000 over the material's reach; None without a budget.
     reason : why this method; simpler : what was left out and why, for people.
@@ -72,6 +76,7 @@ class LayersPlan:
     layers: tuple[PlannedLayer, ...]
     host_ior: float
     under: Under
+    texel: Span
     method: str
     parameters: Mapping[str, ParameterValue] = field(default_factory=lambda: MappingProxyType({}))
     tables: LayerTables | None = None
@@ -83,7 +88,7 @@ class LayersPlan:
     @property
     def varies(self) -> bool:
         """True where a period comes out of a texture."""
-        return any(not layer.period_nm.is_point for layer in self.layers)
+        return not self.texel.is_point
 
     def to_json(self) -> dict[str, Any]:
         """Return how `plan --json` tells it."""
@@ -94,7 +99,7 @@ class LayersPlan:
                     "source": layer.source,
                     "n1": layer.n1,
                     "n2": layer.n2,
-                    "period_nm": [layer.period_nm.low, layer.period_nm.high],
+                    "period_nm": list(layer.period_nm),
                     "fill": layer.fill,
                     "cells": layer.cells,
                     "alpha": layer.alpha,
@@ -103,6 +108,7 @@ class LayersPlan:
             ],
             "host_ior": self.host_ior,
             "under": self.under,
+            "texel": [self.texel.low, self.texel.high],
             "method": self.method,
             "parameters": dict(self.parameters),
             "tables": None
