@@ -13,7 +13,7 @@ from enum import Enum, auto
 from typing import Any, Literal
 
 __all__ = ["ColourSpace", "Kind", "Property", "choice", "extension", "flag", "index", "nested", "number"]
-__all__ += ["properties", "reference", "text", "texture_info", "vector"]
+__all__ += ["nested_list", "properties", "reference", "text", "texture_info", "vector", "whole_number"]
 
 ColourSpace = Literal["", "linear", "srgb"]
 
@@ -29,7 +29,9 @@ class Kind(Enum):
     TEXT = auto()
     CHOICE = auto()
     INDEX = auto()  # a reference into another top-level array
+    WHOLE_NUMBER = auto()
     NESTED = auto()  # an object with its own dataclass
+    NESTED_LIST = auto()  # an array of such objects, `length` of them at most
     TEXTURE = auto()  # a textureInfo object
     EXTENSION = auto()  # an object under "extensions"
 
@@ -47,13 +49,13 @@ class Property:
     high: float | None = None
     low_is_excluded: bool = False
     also_allowed: float | None = None  # one legal value outside [low, high]: KHR_materials_ior's 0
-    length: int = 1  # components of a VECTOR
+    length: int = 1  # components of a VECTOR; the most that a NESTED_LIST holds
     choices: tuple[str, ...] = ()
     refers_to: str = ""  # top-level array of an INDEX
     required: bool = False
     channels: str = ""  # which channels of a TEXTURE are read
     colour_space: ColourSpace = ""
-    cls: type | None = None  # dataclass of a NESTED, TEXTURE or EXTENSION
+    cls: type | None = None  # dataclass of a NESTED, NESTED_LIST, TEXTURE or EXTENSION
 
     @property
     def range_text(self) -> str:
@@ -149,6 +151,16 @@ def reference(key: str, refers_to: str, about: str) -> Any:
 def nested(key: str, cls: type, about: str) -> Any:
     """State an object property; when absent, `cls()` with its own defaults stands for it."""
     return _field(Property(Kind.NESTED, key, about, cls=cls))
+
+
+def nested_list(key: str, cls: type, about: str, *, most: int) -> Any:
+    """State an array of at most `most` objects; when absent it is empty."""
+    return _field(Property(Kind.NESTED_LIST, key, about, (), length=most, cls=cls))
+
+
+def whole_number(key: str, default: int, about: str, *, low: int, high: int) -> Any:
+    """State an integer property."""
+    return _field(Property(Kind.WHOLE_NUMBER, key, about, default, low=low, high=high))
 
 
 def texture_info(key: str, cls: type, about: str, *, channels: str, colour_space: ColourSpace) -> Any:

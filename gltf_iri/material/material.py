@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import ClassVar, Final
 
 from gltf_iri.material.anisotropy import Anisotropy
+from gltf_iri.material.bragg import Bragg
 from gltf_iri.material.clearcoat import Clearcoat
 from gltf_iri.material.dispersion import Dispersion
 from gltf_iri.material.emissive_strength import EmissiveStrength
@@ -73,6 +74,7 @@ class Material:
     ior: Ior | None = extension(Ior, "Refractive index of the base.")
     specular: Specular | None = extension(Specular, "Weight and tint of the dielectric reflection.")
     iridescence: Iridescence | None = extension(Iridescence, "A thin film.")
+    bragg: Bragg | None = extension(Bragg, "Layers of Bragg mirrors.")
     emissive_strength: EmissiveStrength | None = extension(EmissiveStrength, "Emission beyond 1.")
     unlit: Unlit | None = extension(Unlit, "No lighting.")
     transmission: Transmission | None = extension(Transmission, "Light passes through.")

@@ -54,7 +54,9 @@ class Rows:
             Kind.TEXT: _text,
             Kind.CHOICE: _choice,
             Kind.INDEX: self._index,
+            Kind.WHOLE_NUMBER: _whole_number,
             Kind.NESTED: self._nested,
+            Kind.NESTED_LIST: self._nested_list,
             Kind.TEXTURE: self._nested,
             Kind.EXTENSION: self._nested,
         }
@@ -82,11 +84,18 @@ class Rows:
             raise TypeError(f"the row of '{row.key}' names no dataclass")
         return self.build(row.cls, value, pointer)
 
+    def _nested_list(self, row: Property, value: Any, pointer: str) -> tuple[Any, ...]:
+        if not isinstance(value, list):
+            raise _mismatch(value, "an array of objects", pointer)
+        if len(value) > row.length:
+            raise AssetError(
+                f"{len(value)} entries stand where at most {row.length} are read; merge or remove some",
+                pointer=pointer,
+            )
+        return tuple(self._nested(row, item, f"{pointer}/{i}") for i, item in enumerate(value))
+
     def _index(self, row: Property, value: Any, pointer: str) -> int:
-        is_whole = isinstance(value, int) or (isinstance(value, float) and value.is_integer())
-        if isinstance(value, bool) or not is_whole:
-            raise _mismatch(value, "an integer", pointer)
-        index = int(value)
+        index = _integer(value, pointer)
         if index < 0:
             raise AssetError(f"{shown(index)} is negative; write an integer from 0 on", pointer=pointer)
         if row.refers_to:
@@ -114,6 +123,17 @@ def _number(row: Property, value: Any, pointer: str) -> float:
             f"{value} is outside {row.range_text}; write a value inside that range", pointer=pointer
         )
     return number
+
+
+def _integer(value: Any, pointer: str) -> int:
+    is_whole = isinstance(value, int) or (isinstance(value, float) and value.is_integer())
+    if isinstance(value, bool) or not is_whole:
+        raise _mismatch(value, "an integer", pointer)
+    return int(value)
+
+
+def _whole_number(row: Property, value: Any, pointer: str) -> int:
+    return _integer(_number(row, _integer(value, pointer), pointer), pointer)
 
 
 def _is_inside(row: Property, number: float) -> bool:

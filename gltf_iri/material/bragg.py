@@ -1,0 +1,56 @@
+"""EXT_materials_bragg, this project's proposal: rough layers of Bragg mirrors over the base material."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Final
+
+from gltf_iri.material.fields import nested_list, number, texture_info, whole_number
+from gltf_iri.material.texture import TextureInfo
+
+__all__ = ["BRAGG_LAYERS_MAX", "Bragg", "MirrorLayer"]
+
+BRAGG_LAYERS_MAX: Final = 4
+_CELLS_MAX: Final = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class MirrorLayer:
+    """One layer: facets that are mirrors of equal cells, each of two films, the first met first."""
+
+    ior_1: float = number("ior1", 1.0, "Refractive index of each cell's first film.", low=1.0, high=10.0)
+    ior_2: float = number("ior2", 1.5, "Refractive index of each cell's second film.", low=1.0, high=10.0)
+    period_min_nm: float = number(
+        "periodMinimum", 250.0, "Thickness of a cell at a texture value of 0.", low=0.0, unit="nm"
+    )
+    period_max_nm: float = number(
+        "periodMaximum", 250.0, "Thickness of a cell at 1, or without texture.", low=0.0, unit="nm"
+    )
+    fill: float = number("fill", 0.5, "Share of the first film in a cell.", low=0.0, high=1.0)
+    cells: int = whole_number("cells", 1, "How many cells.", low=1, high=_CELLS_MAX)
+    roughness: float = number("roughness", 0.0, "Perceptual roughness of the facets.", low=0.0, high=1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Bragg:
+    """The stack: how much of it, what its layers lie in, and the layers."""
+
+    EXTENSION: ClassVar[str] = "EXT_materials_bragg"
+
+    factor: float = number("braggFactor", 0.0, "Strength of the layers.", low=0.0, high=1.0)
+    texture: TextureInfo | None = texture_info(
+        "braggTexture", TextureInfo, "Multiplies the factor.", channels="r", colour_space="linear"
+    )
+    host_ior: float = number(
+        "hostIor", 1.0, "Refractive index of what the layers lie in.", low=1.0, high=10.0
+    )
+    layers: tuple[MirrorLayer, ...] = nested_list(
+        "layers", MirrorLayer, "The layers, outermost first.", most=BRAGG_LAYERS_MAX
+    )
+    period_texture: TextureInfo | None = texture_info(
+        "braggPeriodTexture",
+        TextureInfo,
+        "Periods of all layers between minimum (0) and maximum (1).",
+        channels="g",
+        colour_space="linear",
+    )
