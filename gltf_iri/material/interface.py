@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from gltf_iri.material.anisotropy import Anisotropy
+from gltf_iri.material.bragg import Bragg
 from gltf_iri.material.clearcoat import Clearcoat
 from gltf_iri.material.dispersion import Dispersion
 from gltf_iri.material.emissive_strength import EmissiveStrength
@@ -36,6 +37,7 @@ _PARTS: tuple[tuple[str, str, type, str], ...] = (
     ("", "", Material, ""),
     ("specular", "specular_", Specular, "HAS_SPECULAR"),
     ("iridescence", "iridescence_", Iridescence, "HAS_IRIDESCENCE"),
+    ("bragg", "bragg_", Bragg, "HAS_BRAGG"),
     ("anisotropy", "anisotropy_", Anisotropy, "HAS_ANISOTROPY"),
     ("transmission", "transmission_", Transmission, "HAS_TRANSMISSION"),
     ("volume", "volume_", Volume, "HAS_VOLUME"),

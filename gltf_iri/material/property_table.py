@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 from gltf_iri.material.fields import Kind, Property, properties
@@ -18,11 +19,7 @@ _HEAD = f"| {' | '.join(_COLUMNS)} |\n|{'---|' * len(_COLUMNS)}"
 def properties_markdown() -> str:
     """Return the text of spec/properties.md."""
     core = [("material", Material)]
-    nested = [
-        (row.key, row.cls)
-        for _, row in properties(Material)
-        if row.kind in {Kind.NESTED, Kind.EXTENSION} and row.cls is not None
-    ]
+    nested = list(_inside(Material))
     textures: list[tuple[str, type]] = [
         ("textureInfo", TextureInfo),
         ("normalTextureInfo", NormalTextureInfo),
@@ -39,6 +36,15 @@ def properties_markdown() -> str:
         body = "\n".join([_HEAD, *own]) if own else "No properties: its presence is its meaning."
         parts.append(f"## {title}\n\n{body}")
     return "\n\n".join(parts) + "\n"
+
+
+def _inside(cls: type, prefix: str = "") -> Iterator[tuple[str, type]]:
+    """Yield the objects that `cls` holds, and right after each the objects that lists of it hold."""
+    for _, row in properties(cls):
+        if row.cls is not None and row.kind in {Kind.NESTED, Kind.EXTENSION, Kind.NESTED_LIST}:
+            title = f"{prefix}{row.key}{'[]' if row.kind is Kind.NESTED_LIST else ''}"
+            yield title, row.cls
+            yield from _inside(row.cls, f"{title}.")
 
 
 def _line(attribute: str, row: Property) -> str:
@@ -74,6 +80,8 @@ def _value(row: Property) -> str:
 def _range(row: Property) -> str:
     if row.choices:
         return ", ".join(row.choices)
+    if row.kind is Kind.NESTED_LIST:
+        return f"{row.length} objects at most"
     if row.low is None and row.high is None:
         return ""
     return row.range_text

@@ -114,6 +114,17 @@ def _fold_thickness(material: Material, values: Values) -> Material | None:
     return replace(material, iridescence=film)
 
 
+def _fold_periods(material: Material, values: Values) -> Material | None:
+    bragg, (share,) = material.bragg, values
+    if bragg is None:
+        return None
+    layers = []
+    for layer in bragg.layers:
+        nm = layer.period_min_nm * (1.0 - share) + layer.period_max_nm * share
+        layers.append(replace(layer, period_min_nm=nm, period_max_nm=nm))
+    return replace(material, bragg=replace(bragg, period_texture=None, layers=tuple(layers)))
+
+
 def _fold_occlusion(material: Material, values: Values) -> Material | None:
     # There is no factor beside the texture: only what occludes nothing can go.
     return replace(material, occlusion_texture=None) if values == (1.0,) else None
@@ -146,6 +157,8 @@ _FOLDS: Final[Mapping[str, Callable[[Material, Values], Material | None]]] = {
     "specular_color": _Multiplied("specular", "color_texture", ("color_factor",)),
     "iridescence": _Multiplied("iridescence", "texture", ("factor",)),
     "iridescence_thickness": _fold_thickness,
+    "bragg": _Multiplied("bragg", "texture", ("factor",)),
+    "bragg_period": _fold_periods,
     "anisotropy": _fold_anisotropy,
     "transmission": _Multiplied("transmission", "texture", ("factor",)),
     "volume_thickness": _Multiplied("volume", "thickness_texture", ("thickness_factor_m",)),

@@ -7,6 +7,7 @@ from typing import Final
 
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
+from gltf_iri.planning.bragg import bragg_verdicts
 from gltf_iri.planning.core import core_verdicts
 from gltf_iri.planning.effects import MATERIAL_EFFECTS, Effect
 from gltf_iri.planning.extensions import extension_verdicts
@@ -46,6 +47,7 @@ def _judged(
         core_verdicts(material, folded),
         extension_verdicts(material, folded),
         film_verdicts(material, method, reach, way, folded),
+        bragg_verdicts(material, folded),
         transmission_verdicts(material, folded),
     ):
         for effect, verdict in verdicts:

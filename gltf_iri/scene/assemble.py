@@ -153,3 +153,6 @@ def _uv_sets(stated: Any) -> Iterator[int]:
             yield value.uv_set
         elif row.kind in (Kind.NESTED, Kind.EXTENSION):
             yield from _uv_sets(value)
+        elif row.kind is Kind.NESTED_LIST:
+            for each in value:
+                yield from _uv_sets(each)

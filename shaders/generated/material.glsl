@@ -38,6 +38,13 @@ uniform float u_iridescence_thickness_min_nm;
 uniform float u_iridescence_thickness_max_nm;
 #endif
 
+#ifdef HAS_BRAGG
+// Strength of the layers.
+uniform float u_bragg_factor;
+// Refractive index of what the layers lie in.
+uniform float u_bragg_host_ior;
+#endif
+
 #ifdef HAS_ANISOTROPY
 // How far the highlight is drawn out.
 uniform float u_anisotropy_strength;
@@ -201,6 +208,32 @@ vec2 iridescence_thickness_uv(vec2 uv0, vec2 uv1) {
 }
 float sample_iridescence_thickness(vec2 uv0, vec2 uv1) {
     return texture(u_iridescence_thickness_texture, iridescence_thickness_uv(uv0, uv1)).g;
+}
+#endif
+
+#ifdef HAS_BRAGG_TEXTURE
+// Multiplies the factor. Reads R, stored linear.
+uniform sampler2D u_bragg_texture;
+uniform mat3 u_bragg_uv_transform;
+uniform int u_bragg_uv_set;
+vec2 bragg_uv(vec2 uv0, vec2 uv1) {
+    return (u_bragg_uv_transform * vec3(u_bragg_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+float sample_bragg(vec2 uv0, vec2 uv1) {
+    return texture(u_bragg_texture, bragg_uv(uv0, uv1)).r;
+}
+#endif
+
+#ifdef HAS_BRAGG_PERIOD_TEXTURE
+// Periods of all layers between minimum (0) and maximum (1). Reads G, stored linear.
+uniform sampler2D u_bragg_period_texture;
+uniform mat3 u_bragg_period_uv_transform;
+uniform int u_bragg_period_uv_set;
+vec2 bragg_period_uv(vec2 uv0, vec2 uv1) {
+    return (u_bragg_period_uv_transform * vec3(u_bragg_period_uv_set == 0 ? uv0 : uv1, 1.0)).xy;
+}
+float sample_bragg_period(vec2 uv0, vec2 uv1) {
+    return texture(u_bragg_period_texture, bragg_period_uv(uv0, uv1)).g;
 }
 #endif
 

@@ -15,6 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from gltf_iri.material.anisotropy import Anisotropy
+from gltf_iri.material.bragg import Bragg, MirrorLayer
 from gltf_iri.material.clearcoat import Clearcoat
 from gltf_iri.material.dispersion import Dispersion
 from gltf_iri.material.emissive_strength import EmissiveStrength
@@ -51,6 +52,7 @@ FULL = Material(
     ior=Ior(2.0),
     specular=Specular(0.5, TextureInfo(5), (1.0, 2.0, 3.0), TextureInfo(6)),
     iridescence=Iridescence(1.0, TextureInfo(7), 1.8, 200.0, 300.0, TextureInfo(8, tex_coord=1)),
+    bragg=Bragg(0.5, TextureInfo(17), 1.35, (MirrorLayer(), MirrorLayer()), TextureInfo(18, tex_coord=1)),
     anisotropy=Anisotropy(0.5, 1.0, TextureInfo(9)),
     transmission=Transmission(1.0, TextureInfo(10)),
     volume=Volume(2.0, TextureInfo(11), 3.0, (0.1, 0.5, 1.0)),
@@ -113,6 +115,8 @@ def test_each_sampler_gets_its_own_texture_in_its_own_colour_space():
         "u_specular_color_texture": (6, "srgb"),
         "u_iridescence_texture": (7, "linear"),
         "u_iridescence_thickness_texture": (8, "linear"),
+        "u_bragg_texture": (17, "linear"),
+        "u_bragg_period_texture": (18, "linear"),
         "u_anisotropy_texture": (9, "linear"),
         "u_transmission_texture": (10, "linear"),
         "u_volume_thickness_texture": (11, "linear"),

@@ -6,6 +6,7 @@ import dataclasses
 import json
 import math
 from functools import cache
+from itertools import pairwise
 from types import SimpleNamespace
 
 import pytest
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 
 from gltf_iri.asset.limits import MAX_NUMBER
 from gltf_iri.errors import AssetError
+from gltf_iri.material.bragg import BRAGG_LAYERS_MAX
 from gltf_iri.material.fields import Kind, Property, properties
 from gltf_iri.material.material import Material
 from gltf_iri.material.parse import parse_materials
@@ -55,6 +57,10 @@ def values(row: Property):
             return st.sampled_from(row.choices)
         case Kind.INDEX:
             return st.integers(0, TEXTURES - 1)
+        case Kind.WHOLE_NUMBER:
+            return st.integers(row.low, row.high)
+        case Kind.NESTED_LIST:
+            return st.lists(objects(row.cls), max_size=row.length)
         case _:
             return objects(row.cls)
 
@@ -80,6 +86,8 @@ def to_json(built):
             continue
         if dataclasses.is_dataclass(value):
             value = to_json(value)
+        elif row.kind is Kind.NESTED_LIST:
+            value = [to_json(each) for each in value]
         (extensions if row.kind is Kind.EXTENSION else entry)[row.key] = value
     return {**entry, **({"extensions": extensions} if extensions else {})}
 
@@ -90,11 +98,12 @@ def every_row(cls, pointer=""):
         here = f"{pointer}/extensions/{row.key}" if row.kind is Kind.EXTENSION else f"{pointer}/{row.key}"
         yield here, row
         if row.cls is not None:
-            yield from every_row(row.cls, here)
+            yield from every_row(row.cls, f"{here}/0" if row.kind is Kind.NESTED_LIST else here)
 
 
 ROWS = list(every_row(Material))
-RANGED = [(path, row) for path, row in ROWS if row.kind in (Kind.NUMBER, Kind.VECTOR) and row.low is not None]
+NUMBERS = (Kind.NUMBER, Kind.VECTOR, Kind.WHOLE_NUMBER)
+RANGED = [(path, row) for path, row in ROWS if row.kind in NUMBERS and row.low is not None]
 
 
 def with_value(path: str, value):
@@ -102,8 +111,12 @@ def with_value(path: str, value):
     material = {}
     place = material
     *way, last = path.strip("/").split("/")
-    for key in way:
-        place = place.setdefault(key, {})
+    for key, after in pairwise([*way, last]):
+        if key == "0":
+            place.append({})
+            place = place[0]
+        else:
+            place = place.setdefault(key, [] if after == "0" else {})
         if key.endswith("Texture"):
             place["index"] = 0
     place[last] = value
@@ -131,9 +144,12 @@ def test_an_empty_material_is_gltfs_default_material():
 
 @pytest.mark.parametrize(("path", "row"), RANGED, ids=[path for path, _ in RANGED])
 def test_a_number_outside_its_range_is_refused_at_its_place(path, row):
-    wrong = [math.nextafter(row.low, -math.inf)] if not row.low_is_excluded else [row.low]
-    if row.high is not None:
-        wrong.append(math.nextafter(row.high, math.inf))
+    if row.kind is Kind.WHOLE_NUMBER:
+        wrong = [row.low - 1, row.high + 1]
+    else:
+        wrong = [math.nextafter(row.low, -math.inf)] if not row.low_is_excluded else [row.low]
+        if row.high is not None:
+            wrong.append(math.nextafter(row.high, math.inf))
     for number in wrong:
         value = [number] * row.length if row.kind is Kind.VECTOR else number
         message = refused(with_value(path, value))
@@ -149,6 +165,7 @@ def test_a_value_of_the_wrong_type_is_refused_at_its_place(path, row):
         Kind.FLAG: (bool,),
         Kind.TEXT: (str,),
         Kind.NESTED: (dict,),
+        Kind.NESTED_LIST: (list,),
         Kind.EXTENSION: (dict,),
     }
     for value in (None, True, "PAINTED", 0.5, [], {}):
@@ -175,6 +192,14 @@ def test_a_texture_that_does_not_exist_is_refused(index):
 def test_a_texture_info_without_index_is_refused():
     assert refused({"occlusionTexture": {"strength": 1.0}}) == (
         "/materials/0/occlusionTexture: the required property 'index' is missing; add it."
+    )
+
+
+def test_a_list_of_more_objects_than_are_read_is_refused():
+    layers = [{}] * (BRAGG_LAYERS_MAX + 1)
+    assert refused({"extensions": {"EXT_materials_bragg": {"layers": layers}}}) == (
+        "/materials/0/extensions/EXT_materials_bragg/layers: "
+        "5 entries stand where at most 4 are read; merge or remove some."
     )
 
 

@@ -1,0 +1,86 @@
+"""Whether layers of Bragg mirrors are called for, and which of their textures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Final
+
+from gltf_iri.material.bragg import Bragg, MirrorLayer
+from gltf_iri.material.iridescence import Iridescence
+from gltf_iri.material.material import Material
+from gltf_iri.material.transmission import Transmission
+from gltf_iri.planning.core import metal_verdict
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.reach import Span
+from gltf_iri.planning.texels import texture_spans
+from gltf_iri.planning.transmission import transmission_verdicts
+from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict, absent, texture_verdict
+
+if TYPE_CHECKING:
+    from gltf_iri.asset.document import Document
+
+__all__ = ["bragg_verdicts", "layer_reflects", "period_texel"]
+
+_EFFECTS: Final = (Effect.BRAGG, Effect.BRAGG_TEXTURE, Effect.BRAGG_PERIOD_TEXTURE)
+
+
+def bragg_verdicts(material: Material, folded: Mapping[Effect, str]) -> Iterator[tuple[Effect, Verdict]]:
+    """Yield the verdicts on the layers, on the texture of their factor and on that of their periods.
+
+    folded : reasons for what `simplified` has taken out of `material`.
+    """
+    bragg = material.bragg
+    if bragg is None:
+        for effect in _EFFECTS:
+            yield effect, absent(Bragg.EXTENSION)
+        return
+    layers = _idle(bragg) or _missing(material, bragg, folded)
+    idle = None if layers is None else f"there are no layers: {layers.reason}"
+    yield Effect.BRAGG, layers
+    effect, everywhere = Effect.BRAGG_TEXTURE, "bragg texture: the factor holds everywhere"
+    yield effect, texture_verdict(bragg.texture, everywhere, idle, folded.get(effect))
+    if all(layer.period_min_nm == layer.period_max_nm for layer in bragg.layers):
+        idle = idle or "minimum and maximum of every layer's period are the same, so it changes nothing"
+    effect, everywhere = Effect.BRAGG_PERIOD_TEXTURE, "period texture: the maxima hold everywhere"
+    yield effect, texture_verdict(bragg.period_texture, everywhere, idle, folded.get(effect))
+
+
+def layer_reflects(layer: MirrorLayer, host_ior: float) -> bool:
+    """True where `layer` is to be seen in its host: an index differs, in a thickness above 0 if it is n2."""
+    if layer.ior_1 != host_ior:
+        return True
+    has_films = layer.fill < 1.0 and max(layer.period_min_nm, layer.period_max_nm) > 0.0
+    return has_films and layer.ior_2 != layer.ior_1
+
+
+def period_texel(material: Material, document: Document | None) -> Span:
+    """Return the values of the period texture, along which every layer's period runs; 1 without one.
+
+    document : of the textures; None lets it hold all that it may.
+    """
+    (texel,) = texture_spans("bragg_period", material, document).channels
+    return texel
+
+
+def _idle(bragg: Bragg) -> Skip | None:
+    if bragg.factor == 0.0:
+        texture = ", and its texture can only multiply it" if bragg.texture else ""
+        return Skip(f"the factor is 0{texture}")
+    if not bragg.layers:
+        return Skip("the list of layers is empty")
+    if not any(layer_reflects(layer, bragg.host_ior) for layer in bragg.layers):
+        return Skip("no layer reflects: their films have the host's index or no thickness")
+    return None
+
+
+def _missing(material: Material, bragg: Bragg, folded: Mapping[Effect, str]) -> NotDrawn | None:
+    if material.iridescence is not None:
+        return NotDrawn(f"{Iridescence.EXTENSION} on the same material excludes it")
+    if dict(transmission_verdicts(material, folded))[Effect.TRANSMISSION] is None:
+        return NotDrawn(f"it is not drawn together with {Transmission.EXTENSION}")
+    *above, last = (layer.ior_1 != bragg.host_ior for layer in bragg.layers)
+    if any(above):
+        return NotDrawn("a first index that is not the host's bends light: only the last layer may have one")
+    if last and metal_verdict(material, folded) is None:
+        return NotDrawn("the last layer's first index is not the host's, and through it no metal is drawn")
+    return None
