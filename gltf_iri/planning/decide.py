@@ -9,12 +9,15 @@ from typing import TYPE_CHECKING, Final
 from gltf_iri.errors import UsageError
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import DEFAULT_MATERIAL, Material
+from gltf_iri.planning.bragg import period_texel
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, idle_film, verdicts_without_film
+from gltf_iri.planning.layer_plan import LayersPlan
+from gltf_iri.planning.layers import plan_layers
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.material_reach import ANY_COLOURS, material_reach, vertex_colour_spans
-from gltf_iri.planning.method import DEFAULT_METHOD, Method, find_method
-from gltf_iri.planning.reach import Lobe, Reach
+from gltf_iri.planning.method import DEFAULT_METHOD, METHODS, Method, find_method
+from gltf_iri.planning.reach import Lobe, Reach, Span
 from gltf_iri.planning.simplify import simplified
 from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict
 from gltf_iri.planning.verdicts import material_verdicts
@@ -58,7 +61,8 @@ def plan_materials(
             continue
         drawn, folded = simplified(material, document)
         reach = material_reach(drawn, document, colours.get(index, unknown))
-        plans.append(plan_material(drawn, index, method=method, reach=reach, folded=folded))
+        texel = period_texel(drawn, document)
+        plans.append(plan_material(drawn, index, method=method, reach=reach, texel=texel, folded=folded))
     return tuple(plans) if scene is None else complete_plans(plans, scene)
 
 
@@ -84,20 +88,25 @@ def plan_material(
     reach: Reach | None = None,
     way: Way | None = None,
     way_reason: str = "",
+    texel: Span | None = None,
+    layers: LayersPlan | None = None,
     folded: Mapping[Effect, str] = _NOTHING,
 ) -> MaterialPlan:
     """Return what `material` calls for.
 
     index : its place in the file, DEFAULT_MATERIAL for glTF's default material.
-    method : the film method that was asked for; None leaves the choice to the plan.
+    method : the method for films, or for layers, that was asked for; None leaves the choice to the plan.
     reach : what the film meets (`material_reach`); None where the textures are unknown: they may then hold
         anything that the format allows.
     way : how the film is computed, `way_reason` why; its method goes before `method`, and without one the
         film is left out for that reason. None: the method is computed directly.
+    texel : what the texture of the layers' periods holds (`period_texel`); None where nobody knows.
+    layers : how layers are computed where a budget chose it; None for `plan_layers` without one.
     folded : reasons for what `simplified` has taken out of `material`.
 
-    Raises UsageError where the method does not exist or does not compute films.
+    Raises UsageError where the method does not exist or computes neither films nor layers.
     """
+    method, layers_method = _by_domain(method)
     name = method if way is None else way.method
     descriptor = find_method(DEFAULT_METHOD if name is None else name, "film")
     verdicts = material_verdicts(material, descriptor, reach, way, folded)
@@ -121,7 +130,15 @@ def plan_material(
         material=material,
         way=way,
         grey=_grey(reach, verdicts) if film is None else frozenset(),
+        layers=layers or plan_layers(material, method=layers_method, texel=texel),
     )
+
+
+def _by_domain(method: str | None) -> tuple[str | None, str | None]:
+    """Return `method` as the one for films or as the one for layers; the other is left to the plan."""
+    if method is not None and method in METHODS and METHODS[method].domain == "layers":
+        return None, method
+    return method, None
 
 
 def _grey(reach: Reach | None, verdicts: Mapping[Effect, Verdict]) -> frozenset[Lobe]:

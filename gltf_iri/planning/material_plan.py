@@ -9,6 +9,7 @@ from typing import Any
 from gltf_iri.material.material import DEFAULT_MATERIAL, Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.film_table import FilmTable
+from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.planning.reach import Lobe
 from gltf_iri.planning.way import Way
 
@@ -30,6 +31,8 @@ class MaterialPlan:
 
     `grey` names the lobes under a film whose base reflects R, G and B alike wherever no vertex brings a
     colour: one channel stands for all.
+
+    `layers` is what is simulated of its Bragg layers, None where none are drawn.
     """
 
     index: int  # DEFAULT_MATERIAL for glTF's default material
@@ -44,6 +47,7 @@ class MaterialPlan:
     material: Material | None = None
     way: Way | None = None
     grey: frozenset[Lobe] = frozenset()
+    layers: LayersPlan | None = None
 
     def calls_for(self, effect: Effect) -> bool:
         """True where `effect` is simulated."""
@@ -71,6 +75,7 @@ class MaterialPlan:
             "layering": self.layering,
             "grey": sorted(self.grey),
             "way": None if self.way is None else self.way.to_json(),
+            "layers": None if self.layers is None else self.layers.to_json(),
             "skipped": {effect.value: reason for effect, reason in self.skipped.items()},
             "not_drawn": dict(self.not_drawn),
         }

@@ -1,0 +1,131 @@
+"""Which of a material's Bragg layers are simulated, over what, and by which method.
+
+Of two cases that look the same the simpler is planned: layers that mirror nothing are left out, one cell in a
+host of its own index is a film, and over a black base nothing that passes the last layer comes back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Final
+
+from gltf_iri.material.bragg import Bragg, MirrorLayer
+from gltf_iri.material.material import Material
+from gltf_iri.planning.bragg import bragg_verdicts, layer_reflects, period_texel
+from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.layer_plan import LayersPlan, LayerTables, PlannedLayer, Under
+from gltf_iri.planning.method import ParameterValue
+from gltf_iri.planning.mirror import film_in_mirror
+from gltf_iri.planning.reach import Span
+
+__all__ = ["DEFAULT_LAYERS_METHOD", "default_tables", "plan_layers"]
+
+DEFAULT_LAYERS_METHOD: Final = "layers-bands"
+
+# Where no budget asks: texels along the cosine, and along the period where it varies.
+_COS_NODES: Final = 256
+_PERIOD_NODES: Final = 64
+
+# What tables hold of a layer by each method that has some.
+_TABLE_BANDS: Final[Mapping[str, int]] = MappingProxyType(
+    {"layers-rgb": 3, "layers-bands": 16, "layers-single-table": 64}
+)
+
+_ONE_CELL: Final = "one cell in a host of its own n1"
+_NO_CONTRAST: Final = "facets that mirror nothing let all light by"
+
+
+def default_tables(method: str, texel: Span) -> LayerTables | None:
+    """Return the shape of the tables that `method` is drawn from without a budget; None where directly."""
+    bands = _TABLE_BANDS.get(method)
+    if bands is None:
+        return None
+    nodes = 1 if texel.is_point else _PERIOD_NODES
+    return LayerTables(bands, method == "layers-rgb", _COS_NODES, nodes, "f4", 0.0)
+
+
+def plan_layers(
+    material: Material,
+    *,
+    method: str | None = None,
+    parameters: Mapping[str, ParameterValue] = MappingProxyType({}),
+    texel: Span | None = None,
+    tables: LayerTables | None = None,
+    delta_e: float | None = None,
+    ns_per_colour: float = 0.0,
+    reason: str = "",
+) -> LayersPlan | None:
+    """Return what of the layers of `material` is simulated; None where none are drawn (`bragg_verdicts`).
+
+    method : of the domain "layers"; None leaves the choice to the plan.
+    texel : what the texture of periods holds (`period_texel`); None where nobody knows.
+    tables : their shape; None for what the method is drawn from without a budget.
+    """
+    bragg, verdicts = material.bragg, dict(bragg_verdicts(material, {}))
+    if bragg is None or material.unlit is not None or verdicts[Effect.BRAGG] is not None:
+        return None
+    if verdicts[Effect.BRAGG_PERIOD_TEXTURE] is not None:
+        texel = Span.at(1.0)  # no period varies by it
+    elif texel is None:
+        texel = period_texel(material, None)
+    chosen = method or DEFAULT_LAYERS_METHOD
+    under: Under = "nothing" if _is_black(material) else "base"
+    layers, simpler = _kept(bragg, texel)
+    if under == "nothing":
+        told = "the base is black: nothing that passes the last layer comes back"
+        simpler.append(f"{told}, and a single layer needs no transmission" if len(layers) == 1 else told)
+    return LayersPlan(
+        layers=tuple(layers),
+        host_ior=bragg.host_ior,
+        under=under,
+        texel=texel,
+        method=chosen,
+        parameters=dict(parameters),
+        tables=tables or default_tables(chosen, texel),
+        delta_e=delta_e,
+        ns_per_colour=ns_per_colour,
+        reason=reason or ("asked for" if method is not None else "the default: band by band, out of tables"),
+        simpler=tuple(simpler),
+    )
+
+
+def _kept(bragg: Bragg, texel: Span) -> tuple[list[PlannedLayer], list[str]]:
+    """Return the layers that are simulated, and what is simpler about them."""
+    from gltf_iri.optics.microfacet import ALPHA_MIN
+
+    layers, simpler = [], []
+    for i, layer in enumerate(bragg.layers):
+        if not layer_reflects(layer, bragg.host_ior):
+            simpler.append(f"layer {i} is left out: {_NO_CONTRAST}")
+            continue
+        if layer.roughness**2 <= ALPHA_MIN:
+            simpler.append(f"layer {i} is smooth: its facets are met at the light's own angle, unfiltered")
+        low, high = (_period(layer, t) for t in (texel.low, texel.high))
+        # d2 does not decide whether the layer is a film.
+        if film_in_mirror(layer.ior_1, layer.ior_2, 0.0, layer.cells, bragg.host_ior) is not None:
+            thinnest, thickest = sorted((1.0 - layer.fill) * nm for nm in (low, high))
+            nm = f"{thickest:.4g}" if thinnest == thickest else f"{thinnest:.4g} to {thickest:.4g}"
+            simpler.append(f"layer {i} is a film: {_ONE_CELL} is {nm} nm of n2 = {layer.ior_2:g}")
+        layers.append(
+            PlannedLayer(
+                i,
+                layer.ior_1,
+                layer.ior_2,
+                (low, high),
+                layer.fill,
+                layer.cells,
+                max(layer.roughness**2, ALPHA_MIN),
+            )
+        )
+    return layers, simpler
+
+
+def _period(layer: MirrorLayer, texel: float) -> float:
+    return layer.period_min_nm * (1.0 - texel) + layer.period_max_nm * texel
+
+
+def _is_black(material: Material) -> bool:
+    """True where nothing comes back from below: a metal of F0 = 0 still mirrors grazing light."""
+    pbr = material.pbr
+    return pbr.metallic_factor == 0.0 and pbr.base_color_factor[:3] == (0.0, 0.0, 0.0)
