@@ -14,13 +14,19 @@ from types import MappingProxyType
 from gltf_iri.colour.tables import D65_FILE, OBSERVER_FILE, d65_csv, observer_csv
 from gltf_iri.material.interface import interface_glsl
 from gltf_iri.material.property_table import properties_markdown
-from gltf_iri.rendering.constants import constants_glsl, film_constants_glsl, layer_constants_glsl
+from gltf_iri.rendering.constants import (
+    bragg_constants_glsl,
+    constants_glsl,
+    film_constants_glsl,
+    layer_constants_glsl,
+)
 
 __all__ = ["GENERATED", "main", "stale_files", "write_files"]
 
 # Path in the checkout → the function that makes its text.
 GENERATED: Mapping[str, Callable[[], str]] = MappingProxyType(
     {
+        "shaders/generated/bragg_constants.glsl": bragg_constants_glsl,
         "shaders/generated/constants.glsl": constants_glsl,
         "shaders/generated/film_constants.glsl": film_constants_glsl,
         "shaders/generated/layer_constants.glsl": layer_constants_glsl,

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Final
+
+import numpy as np
 
 from gltf_iri.colour import damped_sensitivity as damped
 from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM
@@ -11,10 +14,17 @@ from gltf_iri.colour.sensitivity_table import END_NM
 from gltf_iri.colour.spaces import XYZ_TO_REC709
 from gltf_iri.evaluation import fourier, khr, khr_guarded
 from gltf_iri.optics import granier_heidrich, landmarks, layering, microfacet, sheen
+from gltf_iri.optics.quadrature import gauss_unit
 from gltf_iri.rendering import environment_light, optics_tables, spread_table
 from gltf_iri.scene import light
 
-__all__ = ["constants_glsl", "film_constants_glsl", "glsl_float", "layer_constants_glsl"]
+__all__ = ["FILTER_POINTS", "bragg_constants_glsl", "constants_glsl", "film_constants_glsl", "glsl_float"]
+__all__ += ["layer_constants_glsl"]
+
+# Gauss points on each of the three panels of a rough layer's filter in GLSL. Of 400 random layers (α 0.001–1,
+# up to 30 cells) the colour of T errs by 9e-3 at the 95th percentile, half of which 24 points still do:
+# what is missed is the fringes of many cells over angles, not the filter, whose ∫ F_α dθ_d errs by 2e-4.
+FILTER_POINTS: Final = 12
 
 
 def constants_glsl() -> str:
@@ -113,6 +123,23 @@ def film_constants_glsl() -> str:
             "// gltf_iri/evaluation/fourier.py",
             _scalar("FOURIER_THIN_OPD_NM", fourier.THIN_OPD_NM),
             f"const int FOURIER_ORDERS = {int(END_NM / fourier.THIN_OPD_NM)};",
+        ],
+    )
+
+
+def bragg_constants_glsl() -> str:
+    """Return the text of shaders/generated/bragg_constants.glsl, which rough Bragg layers read."""
+    nodes, weights = gauss_unit(FILTER_POINTS)
+    inside = np.sin(0.5 * np.pi * nodes) ** 2
+    inside_weights = 0.5 * np.pi * np.sin(np.pi * nodes) * weights
+    return _file(
+        "Constants of rough Bragg layers in Python.",
+        [
+            "// gltf_iri/optics/rough_bragg.py, filter_nodes: points of one panel, and all three panels' number",
+            f"const int FILTER_POINTS = {FILTER_POINTS};",
+            f"const int FILTER_NODES = {3 * FILTER_POINTS};",
+            _array("FILTER_INSIDE", inside.tolist()),
+            _array("FILTER_WEIGHTS", inside_weights.tolist()),
         ],
     )
 
