@@ -50,7 +50,7 @@ def mirror_density(view: Float64, light: Float64, alpha_t: Float64, alpha_b: Flo
     """Return how densely light directions mirrored at `draw_facet`'s normals lie, (n,), per steradian.
 
     D(H) G₁(V) / (4 N·V) = D(H) / (2 (N·V + slant)), Heitz 2018, Eq. 17 with Smith's G₁: facets within
-    dω mirror into 4 (V·H) dω. 0 where `light` lies below the horizon, where the rest of the facets mirrors to:
+    dω mirror into 4 (V·H) dω. 0 where `light` lies below the horizon, where the other facets mirror to:
     its integral is less than 1.
     """
     half = view + light
