@@ -135,7 +135,7 @@ def bragg_constants_glsl() -> str:
     return _file(
         "Constants of rough Bragg layers in Python.",
         [
-            "// gltf_iri/optics/rough_bragg.py, filter_nodes: points of one panel, and all three panels' number",
+            "// gltf_iri/optics/rough_bragg.py, filter_nodes: points of one panel, and of all three",
             f"const int FILTER_POINTS = {FILTER_POINTS};",
             f"const int FILTER_NODES = {3 * FILTER_POINTS};",
             _array("FILTER_INSIDE", inside.tolist()),
