@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["WHOLE", "measure_whole"]
 
-WHOLE = ("scenes", "twenty", "image-light", "arrays")
+WHOLE = ("scenes", "twenty", "image-light", "arrays", "layers")
 
 # The rows, and what prints them.
 Measured = tuple[list[Any], Callable[[], None]]
@@ -31,6 +31,10 @@ def measure_whole(name: str, files: Sequence[Path], rounds: int | None, count: i
         return _scenes(files, rounds)
     if name == "twenty":
         return _twenty(rounds)
+    if name == "layers":
+        from gltf_iri.cli.bench_layers import measure_layers
+
+        return measure_layers(rounds)
     return _image_light() if name == "image-light" else _arrays(count)
 
 

@@ -1,0 +1,64 @@
+"""`gltf-iri bench layers`: Tables 1 and 2 of Fourneau et al. 2024, measured here beside what they print."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+from gltf_iri.cli.bench_tables import figure
+from gltf_iri.cli.common import note, print_table, progress
+from gltf_iri.errors import MissingCapabilityError
+
+if TYPE_CHECKING:
+    from gltf_iri.bench.layers_rows import LayerRow
+
+__all__ = ["measure_layers"]
+
+
+def measure_layers(rounds: int | None) -> tuple[list[LayerRow], Callable[[], None]]:
+    """Return the rows of both tables, and what prints them; without OpenGL its rows are left out."""
+    from gltf_iri.bench.timing import one_thread
+
+    with one_thread():
+        # Imported here: what they load reads the number of threads when it is loaded.
+        from gltf_iri.bench.layers_table1 import ALPHAS, PERIODS_NM, TABLE1_ROUNDS, measure_table1
+        from gltf_iri.rendering.context import create_context
+
+        context: Any = None
+        try:
+            context = create_context()
+        except MissingCapabilityError as error:
+            note(f"OpenGL's rows are left out: {error}")
+        try:
+            with progress("table 1", len(PERIODS_NM) * len(ALPHAS)) as advance:
+                first = measure_table1(context, rounds or TABLE1_ROUNDS, advance)
+        finally:
+            if context is not None:
+                context.release()
+    return first, lambda: _print_first(first)
+
+
+def _print_first(rows: Sequence[LayerRow]) -> None:
+    from gltf_iri.bench.layers_table1 import ALPHAS, PERIODS_NM, table1_name
+
+    columns = ("Λ, nm", "backend", "method", *(f"× at α {a:g}" for a in ALPHAS), "printed ×", "ns")
+    by_place = {(row.workload, row.backend, row.label): row for row in rows}
+    cells = []
+    for period_nm in PERIODS_NM:
+        names = [table1_name(period_nm, alpha) for alpha in ALPHAS]
+        for row in (each for each in rows if each.workload == names[0]):
+            beside = [by_place[name, row.backend, row.label] for name in names]
+            cells.append(
+                (
+                    f"{period_nm:g}",
+                    row.backend,
+                    row.label,
+                    *(figure(each.speedup, ",.1f") for each in beside),
+                    figure(row.printed, ".1f"),
+                    f"{row.ns_per_eval:,.0f}",
+                    figure(row.delta_e_mean, ".2f"),
+                    figure(row.delta_e_p95, ".2f"),
+                )
+            )
+    title = f"One rough layer: times faster than {rows[0].label}, D65, CIEDE2000; ns and ΔE at the first α"
+    print_table((*columns, "ΔE mean", "ΔE p95"), cells, title=title)
