@@ -83,6 +83,8 @@ class Probe:
         argument_types: Sequence[ResultType] | None = None,
         member: str = "",
         tables: Mapping[str, Table] = MappingProxyType({}),
+        lines: Sequence[str] = (),
+        defines: Sequence[str] = (),
     ) -> Float32:
         """Return `function` of the file `include` (below shaders/) for each row of the broadcast arguments.
 
@@ -92,6 +94,8 @@ class Probe:
         argument_types : the GLSL type of each; without it an array whose last axis is 3 is a vec3.
         result : the type of what the function returns, or of its `member` where it returns a struct.
         tables : for each sampler that the function reads, what fills it: (rows, columns, 1–4 channels).
+        lines : GLSL after the include, such as a function that makes structs of the arguments; defines : what
+            is switched on.
 
         Returns (...) for a float and (..., 3) for a vec3, float32. Raises ShaderError where the call does not
         compile, UsageError where shapes do not go together.
@@ -103,7 +107,7 @@ class Probe:
             np.broadcast_to(a, (*shape, 3) if t == "vec3" else shape).reshape(-1, COMPONENTS[t])
             for a, t in zip(arrays, types, strict=True)
         ]
-        source = probe_source(function, include, types, result, member)
+        source = probe_source(function, include, types, result, member, lines=lines, defines=defines)
         values = self._run(source, np.ascontiguousarray(np.concatenate(rows, axis=1)), types, result, tables)
         return values.reshape((*shape, 3) if result == "vec3" else shape)
 
@@ -147,20 +151,28 @@ class Probe:
 
 
 def probe_source(
-    function: str, include: str, argument_types: Sequence[ResultType], result: ResultType, member: str = ""
+    function: str,
+    include: str,
+    argument_types: Sequence[ResultType],
+    result: ResultType,
+    member: str = "",
+    *,
+    lines: Sequence[str] = (),
+    defines: Sequence[str] = (),
 ) -> ShaderSource:
     """Return the vertex shader that calls `function` on its attributes a0, a1, …"""
     names = [f"a{i}" for i in range(len(argument_types))]
     attributes = [f"in {t} {name};" for t, name in zip(argument_types, names, strict=True)]
-    lines = [
+    text = [
         f'#include "{include}"',
+        *lines,
         *attributes,
         f"out {result} probe_result;",
         "void main() {",
         f"    probe_result = {function}({', '.join(names)}){'.' + member if member else ''};",
         "}",
     ]
-    return assemble_text("\n".join(lines), f"probe of {function}")
+    return assemble_text("\n".join(text), f"probe of {function}", defines)
 
 
 def _row_shape(arrays: Sequence[Float32], types: Sequence[ResultType]) -> tuple[int, ...]:

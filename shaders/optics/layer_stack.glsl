@@ -2,6 +2,17 @@
 // Twin: gltf_iri/optics/layer_stack.py.
 
 #include "common/math.glsl"
+#include "generated/bragg_constants.glsl"
+
+// gltf_iri/evaluation/layers.py; a stack is an array of BRAGG_LAYERS_MAX, outermost first.
+struct BraggLayer {
+    float n1;
+    float n2;
+    float d1_nm;
+    float d2_nm;
+    float cells;
+    float alpha;
+};
 
 // What the layers see of light and viewer; cosines in the host. passage is T(i) T(o) / n_h².
 struct Sight {

@@ -47,7 +47,7 @@ float filter_integral(float plus, float minus, float sine, float tangent_above, 
     return 0.25 * (j_1 + (0.5 * (plus + minus) * j_1 + sine) / squared);
 }
 
-// One direction of light on one roughness. α = 0 and what is not above it in float32 passes at θ_i alone.
+// One direction of light on one roughness.
 struct FilterLight {
     float cos_i;
     float sin_i;
@@ -91,7 +91,10 @@ float transmission_filter(float cos_theta_i, float offset_rad, float alpha) {
     return transmission_filter(filter_light(cos_theta_i, alpha), offset_rad).y;
 }
 
-// x : cosθ_d, y : weight of ∫ f(cosθ_d) F_α dθ_d at node 0 … FILTER_NODES − 1
+// How many nodes a roughness wants: a smooth layer's facets are all met at θ_i.
+int filter_count(float alpha) { return alpha > 0.0 ? FILTER_NODES : 1; }
+
+// x : cosθ_d, y : weight of ∫ f(cosθ_d) F_α dθ_d at node 0 … filter_count − 1
 // The twin's filter_nodes(…, count=FILTER_POINTS). Each panel lies on one side of θ_i, so that θ_d − θ_i = ± α cot y,
 // y = π/2 − |x|, keeps its digits far from the peak too.
 vec2 filter_node(FilterLight light, int node) {
@@ -113,6 +116,5 @@ vec2 filter_node(FilterLight light, int node) {
     offset = first + last < 0.0 ? max(-offset, ends.x) : min(offset, ends.w);
     vec2 met = transmission_filter(light, offset);
     float weight = met.y * light.alpha / sq(sine) * abs(y_last - y_first) * FILTER_WEIGHTS[point];
-    // Equal shares of 1.
-    return light.alpha > 0.0 ? vec2(met.x, weight) : vec2(light.cos_i, 1.0 / float(FILTER_NODES));
+    return light.alpha > 0.0 ? vec2(met.x, weight) : vec2(light.cos_i, 1.0);
 }

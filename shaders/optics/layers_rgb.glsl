@@ -1,0 +1,40 @@
+// Colours of a stack's paths that reflect once, as products of colours: R_rgb by a method for mirrors, T_rgb the
+// filter's mean of 1 − R_rgb.
+// Twin: gltf_iri/evaluation/layers_rgb.py.
+// LAYER_MIRROR_COLOUR names the mirror method's function; who includes this file includes that one's before.
+
+#include "optics/layer_stack.glsl"
+#include "optics/rough_bragg.glsl"
+
+vec3 facet_colour(float host_ior, BraggLayer layer, float cos_theta) {
+    return LAYER_MIRROR_COLOUR(
+        host_ior, layer.n1, layer.n2, layer.d1_nm, layer.d2_nm, layer.cells, cos_theta);
+}
+
+// ∫ (1 − R_rgb(θ_d)) F_α dθ_d, Fourneau et al. 2024, Eq. 28, of colours
+vec3 layer_passed_colour(float host_ior, BraggLayer layer, float cos_theta) {
+    vec3 passed = vec3(0.0);
+    FilterLight light = filter_light(cos_theta, layer.alpha);
+    int nodes = filter_count(layer.alpha);
+    for (int node = 0; node < nodes; ++node) {
+        vec2 met = filter_node(light, node);
+        passed += met.y * (1.0 - facet_colour(host_ior, layer, met.x));
+    }
+    return passed;
+}
+
+// Π_k T_k(i) T_k(o) over the first `count` layers, as colours
+vec3 stack_passed(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i, float cos_o) {
+    vec3 colour = vec3(1.0);
+    for (int k = 0; k < count; ++k) {
+        colour *= layer_passed_colour(host_ior, layers[k], cos_i) * layer_passed_colour(host_ior, layers[k], cos_o);
+    }
+    return colour;
+}
+
+// R_layer(h) Π_{k<layer} T_k(i) T_k(o), as colours; cosines in the host
+// Fourneau et al. 2024, Eq. 34
+vec3 stack_reflected(
+    float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int layer, float cos_h, float cos_i, float cos_o) {
+    return facet_colour(host_ior, layers[layer], cos_h) * stack_passed(host_ior, layers, layer, cos_i, cos_o);
+}
