@@ -16,14 +16,16 @@ from typing import Final, Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.film import Evaluation
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.optics.layer_stack import Sight, coating_transmittance, sight_of
 from gltf_iri.optics.rough_bragg import facet_weight
 
 __all__ = ["ALPHA_MAX", "LAYERS_MAX", "BraggLayer", "LayerBase", "LayerColours", "LayerStack", "Pose"]
-__all__ += ["brdf", "coating_reflectance", "layer_terms"]
+__all__ += ["LayeredSurface", "brdf", "coating_reflectance", "evaluate_layered", "layer_terms"]
 
 Float64 = NDArray[np.float64]
 
@@ -171,6 +173,29 @@ class Pose:
         return cls(i, o, phi)
 
 
+@dataclass(frozen=True, slots=True)
+class LayeredSurface:
+    """A stack as it is seen; the arrays of both broadcast."""
+
+    stack: LayerStack
+    pose: Pose
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Shape of the BRDF without its channel axis; UsageError where stack and pose do not broadcast."""
+        stack, pose, base = self.stack, self.pose, self.stack.base
+        of_base = (np.shape(base.diffuse)[:-1], np.shape(base.metal_f0)[:-1], np.shape(base.metal_share))
+        try:
+            return np.broadcast_shapes(
+                *(np.shape(a) for a in (pose.cos_theta_i, pose.cos_theta_o, pose.cos_phi, stack.host_ior)),
+                *(layer.shape for layer in stack.layers),
+                *of_base,
+                np.shape(base.metal_alpha),
+            )
+        except ValueError:
+            raise UsageError("The layers, their base, light and viewer do not broadcast.") from None
+
+
 class LayerColours(Protocol):
     """What a method computes of one stack: colours, white 1; cosines are those in the host, and broadcast."""
 
@@ -187,7 +212,7 @@ def layer_terms(stack: LayerStack, sight: Sight, colours: LayerColours) -> list[
     """Return each layer's BRDF (..., 3), outermost first, and the base's at the end, below the coating."""
     terms = []
     for number, layer in enumerate(stack.layers):
-        weight = facet_weight(sight.n_cross_h_squared, sight.cos_i, sight.cos_o, layer.alpha)
+        weight = _lobe(sight, layer.alpha)
         colour = colours.reflected(number, sight.cos_h, sight.cos_i, sight.cos_o)
         terms.append(np.asarray(weight[..., None] * colour))
     base = stack.base
@@ -200,6 +225,14 @@ def layer_terms(stack: LayerStack, sight: Sight, colours: LayerColours) -> list[
     sent = base.diffuse * (bent / np.pi)[..., None] + weight[..., None] * metal
     terms.append(np.asarray(colours.passed(sight.cos_i, sight.cos_o) * sent))
     return terms
+
+
+def _lobe(sight: Sight, alpha: Float64) -> Float64:
+    """`facet_weight`, and 0 for smooth layers: they send nothing but their mirror image."""
+    is_rough = alpha > 0.0
+    rough = np.where(is_rough, alpha, 1.0)
+    weight = facet_weight(sight.n_cross_h_squared, sight.cos_i, sight.cos_o, rough)
+    return np.asarray(np.where(is_rough, weight, 0.0))
 
 
 def brdf(stack: LayerStack, pose: Pose, colours: LayerColours) -> Float64:
@@ -216,3 +249,18 @@ def brdf(stack: LayerStack, pose: Pose, colours: LayerColours) -> Float64:
 def coating_reflectance(host_ior: ArrayLike, cos_theta: ArrayLike) -> Float64:
     """Return what the smooth surface of the host mirrors of light outside at `cos_theta`: f_r,0's weight."""
     return np.asarray(1.0 - coating_transmittance(host_ior, cos_theta))
+
+
+def evaluate_layered(surface: LayeredSurface, colours: LayerColours, method: str, white: White) -> Evaluation:
+    """Return the BRDF (*surface.shape, 3), 1/sr, as an evaluation of `method`.
+
+    A smooth layer has none; where it mirrors the light straight into the viewer that is told as undefined.
+    """
+    shape, stack, pose = surface.shape, surface.stack, surface.pose
+    rgb = np.broadcast_to(brdf(stack, pose, colours), (*shape, 3))
+    sight = sight_of(stack.host_ior, pose.cos_theta_i, pose.cos_theta_o, pose.cos_phi)
+    is_mirrored = np.zeros(shape, dtype=np.bool_)
+    for layer in stack.layers:
+        is_mirrored |= (layer.alpha == 0.0) & (sight.n_cross_h_squared == 0.0)
+    undefined = {"the mirror image of a smooth layer": is_mirrored} if is_mirrored.any() else {}
+    return Evaluation(rgb, method, str(white), undefined=undefined)

@@ -21,18 +21,24 @@ from gltf_iri.evaluation.incoherent import evaluate_incoherent
 from gltf_iri.evaluation.khr import evaluate_khr
 from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
 from gltf_iri.evaluation.landmarks import evaluate_landmarks, evaluate_landmarks_sub
+from gltf_iri.evaluation.layers import LayeredSurface
+from gltf_iri.evaluation.layers_single import evaluate_layers_single
+from gltf_iri.evaluation.layers_single_table import evaluate_layers_single_table
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.naive_rgb import evaluate_naive_rgb
+from gltf_iri.evaluation.parameters import checked_parameters
 from gltf_iri.evaluation.smits_meyer import evaluate_smits_meyer
 from gltf_iri.evaluation.spectral import evaluate_spectral
 from gltf_iri.evaluation.spectral_grid import evaluate_spectral_grid
 from gltf_iri.evaluation.yeh_grid import evaluate_yeh_grid
 from gltf_iri.evaluation.yeh_spectral import evaluate_yeh_spectral
-from gltf_iri.planning.method import Method, ParameterValue, find_method
+from gltf_iri.planning.method import Domain, ParameterValue, find_method
 
-__all__ = ["EVALUATORS", "Evaluator", "checked_parameters", "evaluate"]
+__all__ = ["EVALUATORS", "Evaluator", "Subject", "checked_parameters", "domain_of", "evaluate"]
 
-# evaluator(film or mirror, white, **parameters, and `backend` where the method has more than one)
+Subject = Film | Mirror | LayeredSurface
+
+# evaluator(subject, white, **parameters, and `backend` where the method has more than one)
 Evaluator = Callable[..., Evaluation]
 
 # Names are those of gltf_iri.planning.method.METHODS; a test holds both sets equal.
@@ -53,13 +59,22 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
         "landmarks": evaluate_landmarks,
         "landmarks-sub": evaluate_landmarks_sub,
         "bloch": evaluate_bloch,
+        "layers-single": evaluate_layers_single,
+        "layers-single-table": evaluate_layers_single_table,
     }
 )
 
 
+def domain_of(subject: Subject) -> Domain:
+    """Return whose methods compute `subject`."""
+    if isinstance(subject, LayeredSurface):
+        return "layers"
+    return "mirror" if isinstance(subject, Mirror) else "film"
+
+
 def evaluate(
     method: str,
-    subject: Film | Mirror,
+    subject: Subject,
     *,
     white: str | Light = "D65",
     backend: str = "auto",
@@ -67,11 +82,13 @@ def evaluate(
 ) -> Evaluation:
     """Return the reflectance colour of `subject` (shape subject.shape + (3,)) by the method called `method`.
 
+    Of a layered surface the colour is that of its BRDF, 1/sr, as `gltf_iri.evaluation.layers.brdf` has it.
+
     white : "D65", "E", or a light of the caller's own.
-    Raises UsageError where the method or the white is unknown, the method is not one for films or mirrors as
-    the subject is, or has no such parameter or backend.
+    Raises UsageError where the method or the white is unknown, the method is not one for films, mirrors or
+    layers as the subject is, or has no such parameter or backend.
     """
-    descriptor = find_method(method, "mirror" if isinstance(subject, Mirror) else "film")
+    descriptor = find_method(method, domain_of(subject))
     if not isinstance(white, Light) and white not in WHITES:
         raise UsageError(f"There is no white '{white}'; choose one of: {', '.join(WHITES)}.")
     values = checked_parameters(descriptor, parameters)
@@ -81,13 +98,3 @@ def evaluate(
     if len(descriptor.backends) > 1:
         arguments["backend"] = chosen
     return replace(EVALUATORS[method](subject, white, **arguments), backend=chosen, parameters=values)
-
-
-def checked_parameters(method: Method, given: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
-    """Return all parameters of `method`; UsageError where it has none so called or not of such a value."""
-    known = {parameter.name: parameter for parameter in method.parameters}
-    for name in given:
-        if name not in known:
-            has = f"; it has {', '.join(known)}" if known else ", nor any other"
-            raise UsageError(f"The method '{method.name}' has no parameter '{name}'{has}.")
-    return {name: each.checked(given.get(name, each.default), method.name) for name, each in known.items()}

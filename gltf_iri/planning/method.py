@@ -7,76 +7,18 @@ both sets equal.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Final, Literal
+from typing import Final
 
-from gltf_iri.backends import Backend
 from gltf_iri.errors import UsageError
+from gltf_iri.planning.layer_methods import LAYER_METHODS
+from gltf_iri.planning.method_type import Domain, Method, Parameter, ParameterValue
 
 __all__ = ["DEFAULT_METHOD", "DEFAULT_MIRROR_METHOD", "METHODS", "Domain", "Method", "Parameter"]
 __all__ += ["ParameterValue", "find_method", "method_names", "parameters_text", "truth_of"]
 
 DEFAULT_METHOD: Final = "khr-guarded"
 DEFAULT_MIRROR_METHOD: Final = "yeh-spectral"
-
-Domain = Literal["film", "mirror"]
-ParameterValue = float | str
-
-
-@dataclass(frozen=True, slots=True)
-class Parameter:
-    """What a method lets its caller choose: a number in a range, whole where `default` is, or a word."""
-
-    name: str
-    about: str
-    default: ParameterValue
-    minimum: float = 0.0
-    maximum: float = 0.0
-    choices: tuple[str, ...] = ()
-
-    def checked(self, value: ParameterValue, method: str) -> ParameterValue:
-        """Return `value` in the type of the default; UsageError where it is not one of those allowed."""
-        if self.choices:
-            if value in self.choices:
-                return value
-            wanted = f"one of {', '.join(self.choices)}"
-        else:
-            is_whole = isinstance(self.default, int)
-            wanted = f"a {'whole ' if is_whole else ''}number from {self.minimum:g} to {self.maximum:g}"
-            try:
-                number = float(value)
-            except (TypeError, ValueError):
-                number = float("nan")
-            if self.minimum <= number <= self.maximum and not (is_whole and number % 1.0):
-                return int(number) if is_whole else number
-        raise UsageError(f"The parameter {self.name} of method '{method}' wants {wanted}, not '{value}'.")
-
-
-@dataclass(frozen=True, slots=True)
-class Method:
-    """One published way to turn a film or a mirror into a colour."""
-
-    name: str
-    domain: Domain
-    about: str
-    source: str
-    is_truth: bool  # exact up to a stated, converged quadrature error
-    glsl_function: str | None  # the twin in shaders/optics, or None where there is none
-    # CIEDE2000 against truth on the benchmark's set for its domain; None where it has no number of its own
-    delta_e_mean: float | None
-    parameters: tuple[Parameter, ...] = ()  # keyword arguments of its evaluator
-    backends: tuple[Backend, ...] = ("numpy",)  # with more than one, its evaluator takes `backend`
-    glsl_tables: tuple[str, ...] = ()  # the samplers that its twin reads (rendering/optics_tables.py)
-    # The twin that averages over a Gaussian spread of thickness, and what it reads; None where there is none
-    glsl_spread_function: str | None = None
-    glsl_spread_tables: tuple[str, ...] = ()
-
-    @property
-    def define(self) -> str:
-        """The preprocessor symbol that selects the method in GLSL: khr-guarded → METHOD_KHR_GUARDED."""
-        return "METHOD_" + self.name.upper().replace("-", "_")
-
 
 # Bounds and words of the formulas stand here a second time, and a test holds both equal: the formulas import
 # numpy, for which `--help` cannot wait.
@@ -260,11 +202,13 @@ _MIRROR_METHODS: tuple[Method, ...] = (
     ),
 )
 
-METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (*_FILM_METHODS, *_MIRROR_METHODS)})
+METHODS: Mapping[str, Method] = MappingProxyType(
+    {m.name: m for m in (*_FILM_METHODS, *_MIRROR_METHODS, *LAYER_METHODS)}
+)
 
 
 def method_names(domain: Domain) -> tuple[str, ...]:
-    """Return the names of the methods for films, or of those for mirrors."""
+    """Return the names of the methods of `domain`."""
     return tuple(method.name for method in METHODS.values() if method.domain == domain)
 
 
@@ -283,6 +227,6 @@ def find_method(name: str, domain: Domain | None = None) -> Method:
     method = METHODS.get(name)
     if method is None or domain not in (None, method.domain):
         known = ", ".join(m.name for m in METHODS.values() if domain in (None, m.domain))
-        kind = "" if method is None else f" for a {domain}"
+        kind = "" if method is None else " for layers" if domain == "layers" else f" for a {domain}"
         raise UsageError(f"There is no method '{name}'{kind}; choose one of: {known}.")
     return method

@@ -15,7 +15,7 @@ from gltf_iri.evaluation.film import Film, base_from_ior
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.evaluation.spectral import film_spectrum
-from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.method import METHODS, method_names
 
 Float64 = NDArray[np.float64]
 
@@ -38,7 +38,7 @@ METAL = Film.of(0.7, np.array([100.0, 600.0]), 1.7, base_from_ior(0.3 + 3j))
 MIRROR = Mirror.of(np.linspace(0.2, 1.0, 5), 1.0, 1.5, 200.0, 150.0, 10)
 
 
-@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize("method", [*method_names("film"), *method_names("mirror")])
 def test_a_shipped_white_written_out_is_the_same(method: str) -> None:
     subject = METAL if METHODS[method].domain == "film" else MIRROR
     ours = evaluate(method, subject, white=DAYLIGHT)

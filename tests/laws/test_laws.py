@@ -48,7 +48,7 @@ def test_every_method_stands_in_the_table() -> None:
     assert set(BROKEN["mirror"]) == set(method_names("mirror"))
     assert set(BROKEN["wavelength"]) == set(SUBJECTS)
     assert set(BROKEN["cells"]) == set(CELL_SUBJECTS)
-    assert set(MADE_OF) == set(METHODS)
+    assert set(MADE_OF) == {*method_names("film"), *method_names("mirror")}
 
 
 def test_broken_laws_are_laws() -> None:
@@ -57,8 +57,8 @@ def test_broken_laws_are_laws() -> None:
 
 
 def test_truths_break_no_law() -> None:
-    truths = [method.name for method in METHODS.values() if method.is_truth]
-    assert not any(BROKEN[METHODS[name].domain][name] for name in truths)
+    truths = [method for method in METHODS.values() if method.is_truth and method.domain in BROKEN]
+    assert not any(BROKEN[method.domain][method.name] for method in truths)
 
 
 def test_a_wrong_method_would_be_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
