@@ -21,7 +21,7 @@ LAYER_INPUTS: Final = "LAYER_INPUTS"
 
 SWITCHES: Final = frozenset(
     {effect.define for effect in Effect}
-    | {m.define for m in METHODS.values() if m.glsl_function and m.domain == "film"}
+    | {m.define for m in METHODS.values() if m.glsl_function}
     | FILM_SWITCHES
     | {LAYERING_SPECULAR, SHADING_INPUTS, LAYER_INPUTS}
 )

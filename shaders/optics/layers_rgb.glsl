@@ -1,13 +1,29 @@
-// Colours of a stack's paths that reflect once, as products of colours: R_rgb by a method for mirrors, T_rgb the
-// filter's mean of 1 − R_rgb.
+// Colours of a stack's paths that reflect once, as products of colours: R_rgb of the mirror method that the define
+// names, the truth where none is defined, and T_rgb the filter's mean of 1 − R_rgb.
 // Twin: gltf_iri/evaluation/layers_rgb.py.
-// LAYER_MIRROR_COLOUR names the mirror method's function; who includes this file includes that one's before.
 
 #include "optics/layer_stack.glsl"
 #include "optics/rough_bragg.glsl"
+#if defined(METHOD_BLOCH)
+#include "optics/bloch.glsl"
+#elif defined(METHOD_LANDMARKS)
+#include "optics/landmarks.glsl"
+#elif defined(METHOD_LANDMARKS_SUB)
+#include "optics/landmarks_sub.glsl"
+#else
+#include "optics/yeh_spectral.glsl"
+#endif
 
 vec3 facet_colour(float host_ior, BraggLayer layer, float cos_theta) {
-    return LAYER_MIRROR_COLOUR(
+#if defined(METHOD_BLOCH)
+    return bragg_reflectance_bloch(
+#elif defined(METHOD_LANDMARKS)
+    return bragg_reflectance_landmarks(
+#elif defined(METHOD_LANDMARKS_SUB)
+    return bragg_reflectance_landmarks_sub(
+#else
+    return mirror_colour_yeh_spectral(
+#endif
         host_ior, layer.n1, layer.n2, layer.d1_nm, layer.d2_nm, layer.cells, cos_theta);
 }
 

@@ -101,9 +101,9 @@ def test_a_define_that_would_do_nothing_is_refused(text: str, defines: list[str]
         assemble_text(text, "t", defines)
 
 
-def test_every_effect_and_film_method_with_a_twin_has_its_switch() -> None:
+def test_every_effect_and_method_with_a_twin_has_its_switch() -> None:
     assert {effect.define for effect in Effect} <= SWITCHES
-    twins = {m.define for m in METHODS.values() if m.glsl_function and m.domain == "film"}
+    twins = {m.define for m in METHODS.values() if m.glsl_function}
     assert {s for s in SWITCHES if s.startswith("METHOD_")} == twins
 
 
