@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.film_table import FilmTable, Quantity
+from gltf_iri.planning.layer_switches import layer_defines
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import find_method
 from gltf_iri.planning.reach import Lobe
@@ -83,6 +84,8 @@ def permutation(
 ) -> tuple[str, ...]:
     """Return the defines of the shader that draws a primitive with this plan under these lights, in order.
 
+    Some have a value, "NAME value"; the others are switches.
+
     Effects that cannot be seen together are dropped: lights on unlit materials, tangents that
     nothing is laid out along, occlusion without image light.
     """
@@ -96,6 +99,7 @@ def permutation(
     defines = [effect.define for effect in Effect if effect in seen]
     if plan.method is not None:
         defines += _film_defines(plan, plan.method, seen)
+    defines += layer_defines(plan)
     if plan.layering == "specular" and Effect.DIELECTRIC in seen:
         defines.append(LAYERING_SPECULAR)
     return tuple(defines)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["INPUT_TARGETS", "LAYER_INPUT_TARGETS", "Frame", "ShadingInputs"]
+__all__ = ["BRAGG_INPUT_TARGETS", "INPUT_TARGETS", "LAYER_INPUT_TARGETS", "Frame", "ShadingInputs"]
 
 Float32 = NDArray[np.float32]
 
@@ -42,12 +42,24 @@ LAYER_INPUT_TARGETS: tuple[tuple[str, str], ...] = (
     ("layer_albedos", "facet_cosine"),
 )
 
+# A third set, drawn only where a plan has Bragg layers. Image light as the lobe of each sees it, outermost
+# first; as the metal below them does, and as a mirror does where their host is not air. The value along which
+# the periods of all layers run.
+BRAGG_INPUT_TARGETS: tuple[tuple[str, str], ...] = (
+    ("bragg_radiance_0", "bragg_factor"),
+    ("bragg_radiance_1", "bragg_period_texel"),
+    ("bragg_radiance_2", ""),
+    ("bragg_radiance_3", ""),
+    ("bragg_metal_radiance", ""),
+    ("bragg_coating_radiance", ""),
+)
+
 
 @dataclass(frozen=True, slots=True)
 class ShadingInputs:
     """One array a quantity, float32, shape (height, width, 3) or (height, width); row 0 is the top.
 
-    Quantities of `LAYER_INPUT_TARGETS` are 0 where no plan calls for their effect.
+    Quantities of `LAYER_INPUT_TARGETS` and `BRAGG_INPUT_TARGETS` are 0 where no plan calls for their effect.
     """
 
     colour: Float32
@@ -80,6 +92,14 @@ class ShadingInputs:
     anisotropy_strength: Float32
     layer_albedos: Float32
     facet_cosine: Float32
+    bragg_radiance_0: Float32
+    bragg_factor: Float32
+    bragg_radiance_1: Float32
+    bragg_period_texel: Float32
+    bragg_radiance_2: Float32
+    bragg_radiance_3: Float32
+    bragg_metal_radiance: Float32
+    bragg_coating_radiance: Float32
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,9 +13,10 @@ from gltf_iri.planning.permutation import permutation, primitive_effects
 from gltf_iri.rendering.draw import Draw, Shader
 from gltf_iri.rendering.film_tables import FilmTableStore
 from gltf_iri.rendering.geometry import GeometryStore, placement_uniforms
+from gltf_iri.rendering.layer_tables import LayerTableStore, direct_tables
 from gltf_iri.rendering.optics_tables import OpticsTableStore
 from gltf_iri.rendering.programs import ProgramStore, computed_method, film_parameters
-from gltf_iri.rendering.switches import LAYER_INPUTS, SHADING_INPUTS
+from gltf_iri.rendering.switches import BRAGG_INPUTS, LAYER_INPUTS, SHADING_INPUTS
 from gltf_iri.rendering.textures import TextureStore
 from gltf_iri.rendering.uniforms import Sampled
 from gltf_iri.scene.model import Scene
@@ -27,6 +28,7 @@ __all__ = [
     "FIRST_INPUTS",
     "PICTURE",
     "SECOND_INPUTS",
+    "THIRD_INPUTS",
     "needed_targets",
     "prepare_draws",
     "used_plans",
@@ -36,11 +38,13 @@ __all__ = [
 PICTURE: Final = "picture"
 FIRST_INPUTS: Final = "first inputs"
 SECOND_INPUTS: Final = "second inputs"
+THIRD_INPUTS: Final = "third inputs"
 
 _SWITCHES: Final[Mapping[str, tuple[str, ...]]] = {
     PICTURE: (),
     FIRST_INPUTS: (SHADING_INPUTS,),
     SECOND_INPUTS: (LAYER_INPUTS,),
+    THIRD_INPUTS: (BRAGG_INPUTS,),
 }
 
 # The effects that `LAYER_INPUT_TARGETS` speak of.
@@ -57,7 +61,7 @@ def used_plans(scene: Scene, plans: Sequence[MaterialPlan]) -> list[MaterialPlan
 
 
 def needed_targets(plans: Sequence[MaterialPlan], *, with_inputs: bool) -> tuple[str, ...]:
-    """Return what to draw into; the second inputs only where one of `plans` fills them."""
+    """Return what to draw into; the second and third inputs only where one of `plans` fills them."""
     if not with_inputs:
         return (PICTURE,)
     # A film with a way asks for the cosine of image light's facets.
@@ -65,7 +69,9 @@ def needed_targets(plans: Sequence[MaterialPlan], *, with_inputs: bool) -> tuple
         (plan.way is not None and plan.method is not None) or any(plan.calls_for(e) for e in _LAYERS)
         for plan in plans
     )
-    return (PICTURE, FIRST_INPUTS, SECOND_INPUTS) if has_layers else (PICTURE, FIRST_INPUTS)
+    second = (SECOND_INPUTS,) if has_layers else ()
+    third = (THIRD_INPUTS,) if any(plan.layers is not None for plan in plans) else ()
+    return (PICTURE, FIRST_INPUTS, *second, *third)
 
 
 def prepare_draws(
@@ -81,12 +87,13 @@ def prepare_draws(
     light: Mapping[str, moderngl.Texture],
     tables: OpticsTableStore,
     film_tables: FilmTableStore,
+    layer_tables: LayerTableStore,
     white: str,
 ) -> Iterator[Draw]:
     """Yield a draw for each primitive; `uniforms` and `light` are those that all of them share.
 
     tables, white : what the films' methods sample, and the illuminant that it is made for.
-    film_tables : what the films are read from where their way has tables.
+    film_tables : what the films are read from where their way has tables; layer_tables : the same of layers.
 
     Raises MissingCapabilityError for more or larger textures than OpenGL takes, UsageError where a table is
     missing that a plan's way names.
@@ -108,6 +115,9 @@ def prepare_draws(
         if plan.method is not None:
             own |= film_tables.uniforms(plan)
             sampled |= film_tables.textures(plan)
+        own |= layer_tables.uniforms(plan)
+        sampled |= layer_tables.textures(plan)
+        sampled |= tables.textures(direct_tables(plan), white, {})
         method = computed_method(plan)
         if method is not None:
             has_spread = plan.calls_for(Effect.IRIDESCENCE_THICKNESS_SPREAD) and method.glsl_spread_function

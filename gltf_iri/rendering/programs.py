@@ -19,8 +19,12 @@ __all__ += ["surface_sources"]
 
 
 def surface_sources(defines: tuple[str, ...]) -> tuple[ShaderSource, ShaderSource]:
-    """Return the vertex and the fragment shader of one permutation, as the compiler sees them."""
-    return assemble("pass/surface.vert", defines), assemble("pass/surface.frag", defines)
+    """Return the vertex and the fragment shader of one permutation, as the compiler sees them.
+
+    What has a value is the fragment shader's alone.
+    """
+    switches = tuple(define for define in defines if " " not in define)
+    return assemble("pass/surface.vert", switches), assemble("pass/surface.frag", defines)
 
 
 def check_method(name: str | None) -> None:

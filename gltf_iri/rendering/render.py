@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.baking.baked import BakedTable
+from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.errors import MissingCapabilityError
 from gltf_iri.planning.decide import complete_plans
 from gltf_iri.planning.effects import Effect
@@ -21,15 +22,17 @@ from gltf_iri.rendering.capture import Capturing
 from gltf_iri.rendering.context import renderer_name
 from gltf_iri.rendering.draw import Draw, draw_faces, draw_opaque
 from gltf_iri.rendering.film_tables import FilmTableStore, checked_tables
-from gltf_iri.rendering.frame import INPUT_TARGETS, LAYER_INPUT_TARGETS, Frame
+from gltf_iri.rendering.frame import BRAGG_INPUT_TARGETS, INPUT_TARGETS, LAYER_INPUT_TARGETS, Frame
 from gltf_iri.rendering.geometry import GeometryStore
 from gltf_iri.rendering.image_light import ImageLightStore
+from gltf_iri.rendering.layer_tables import LayerTableStore, checked_layers
 from gltf_iri.rendering.optics_tables import OpticsTableStore
 from gltf_iri.rendering.passes import PassTimes
 from gltf_iri.rendering.prepare import (
     FIRST_INPUTS,
     PICTURE,
     SECOND_INPUTS,
+    THIRD_INPUTS,
     needed_targets,
     prepare_draws,
     used_plans,
@@ -52,6 +55,7 @@ _TARGET_COUNTS: Final = {
     PICTURE: 1,
     FIRST_INPUTS: len(INPUT_TARGETS),
     SECOND_INPUTS: len(LAYER_INPUT_TARGETS),
+    THIRD_INPUTS: len(BRAGG_INPUT_TARGETS),
 }
 
 
@@ -81,6 +85,7 @@ class Renderer:
         with_inputs: bool = False,
         white: str = "D65",
         tables: Mapping[int, Mapping[Lobe, BakedTable]] = MappingProxyType({}),
+        layer_tables: Mapping[int, BakedLayers] = MappingProxyType({}),
     ) -> Frame:
         """Return the picture of `scene`; its milliseconds are drawing alone, without uploads and compiling.
 
@@ -98,6 +103,7 @@ class Renderer:
             surface in front: an input belongs to one surface.
         white : the illuminant, "D65" or "E", under which film methods with a table of it integrate.
         tables : the films' tables of the plans whose way has some (`baking.fill.bake_plans`), under `white`.
+        layer_tables : those of the plans' Bragg layers (`baking.layer_fill.bake_layer_plans`), under `white`.
 
         Raises UsageError for a size out of range, a method without GLSL and a missing table,
         MissingCapabilityError where OpenGL takes fewer samples or smaller textures than are needed.
@@ -111,6 +117,7 @@ class Renderer:
         for plan in plans:
             computed_method(plan)
             checked_tables(plan, tables, white)
+            checked_layers(plan, layer_tables, white)
         surroundings = plan_scene_effects(scene, environment)
         geometry = GeometryStore(self.context)
         textures = TextureStore(
@@ -120,6 +127,7 @@ class Renderer:
         names = needed_targets(used, with_inputs=with_inputs)
         times = PassTimes(self.context)
         film_tables = FilmTableStore(self.context, tables, white)
+        layers = LayerTableStore(self.context, layer_tables, white)
         lights = lights_texture(self.context, scene.lights)
         targets: dict[str, Targets] = {}
         try:
@@ -155,6 +163,7 @@ class Renderer:
                         light,
                         self._optics_tables,
                         film_tables,
+                        layers,
                         white,
                     )
                 )
@@ -168,7 +177,11 @@ class Renderer:
             with times.measure("read"):
                 rgba = targets[PICTURE].read()
                 inputs = (
-                    shading_inputs(targets[FIRST_INPUTS], targets.get(SECOND_INPUTS)) if with_inputs else None
+                    shading_inputs(
+                        targets[FIRST_INPUTS], targets.get(SECOND_INPUTS), targets.get(THIRD_INPUTS)
+                    )
+                    if with_inputs
+                    else None
                 )
             return Frame(
                 rgba,
@@ -190,6 +203,7 @@ class Renderer:
                 target.release()
             textures.release()
             film_tables.release()
+            layers.release()
             geometry.release()
             self._programs.trim()
 

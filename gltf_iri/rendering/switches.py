@@ -9,19 +9,22 @@ from __future__ import annotations
 from typing import Final
 
 from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.layer_switches import LAYER_SWITCHES
 from gltf_iri.planning.method import METHODS
 from gltf_iri.planning.permutation import FILM_SWITCHES, LAYERING_SPECULAR
 
-__all__ = ["LAYER_INPUTS", "SHADING_INPUTS", "SWITCHES"]
+__all__ = ["BRAGG_INPUTS", "LAYER_INPUTS", "SHADING_INPUTS", "SWITCHES"]
 
-# In place of the picture: what each pixel was shaded with, in the first or the second set of targets
-# (rendering/frame.py). One of the two, never both.
+# In place of the picture: what each pixel was shaded with, in the first, second or third set of targets
+# (rendering/frame.py). One of the three, never two.
 SHADING_INPUTS: Final = "SHADING_INPUTS"
 LAYER_INPUTS: Final = "LAYER_INPUTS"
+BRAGG_INPUTS: Final = "BRAGG_INPUTS"
 
 SWITCHES: Final = frozenset(
     {effect.define for effect in Effect}
     | {m.define for m in METHODS.values() if m.glsl_function}
     | FILM_SWITCHES
-    | {LAYERING_SPECULAR, SHADING_INPUTS, LAYER_INPUTS}
+    | LAYER_SWITCHES
+    | {LAYERING_SPECULAR, SHADING_INPUTS, LAYER_INPUTS, BRAGG_INPUTS}
 )

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.errors import MissingCapabilityError, UsageError
-from gltf_iri.rendering.frame import INPUT_TARGETS, LAYER_INPUT_TARGETS, ShadingInputs
+from gltf_iri.rendering.frame import BRAGG_INPUT_TARGETS, INPUT_TARGETS, LAYER_INPUT_TARGETS, ShadingInputs
 from gltf_iri.rendering.fullscreen import release_framebuffer
 
 if TYPE_CHECKING:
@@ -110,16 +110,17 @@ class Targets:
             release_framebuffer(self._context, framebuffer)
 
 
-def shading_inputs(first: Targets, second: Targets | None) -> ShadingInputs:
-    """Read all of `INPUT_TARGETS`, and of `LAYER_INPUT_TARGETS` what was drawn."""
+def shading_inputs(first: Targets, second: Targets | None, third: Targets | None) -> ShadingInputs:
+    """Read all of `INPUT_TARGETS`, and of `LAYER_INPUT_TARGETS` and `BRAGG_INPUT_TARGETS` what was drawn."""
     values: dict[str, NDArray[np.generic]] = {}
     for index, (colour, scalar) in enumerate(INPUT_TARGETS):
         pixels = first.read(index)
         values[colour], values[scalar] = pixels[..., :3].copy(), pixels[..., 3].copy()
-    for index, (colour, scalar) in enumerate(LAYER_INPUT_TARGETS):
-        pixels = np.zeros_like(pixels) if second is None else second.read(index)
-        values[colour] = pixels[..., :3].copy()
-        if scalar:
-            values[scalar] = pixels[..., 3].copy()
+    for names, drawn in ((LAYER_INPUT_TARGETS, second), (BRAGG_INPUT_TARGETS, third)):
+        for index, (colour, scalar) in enumerate(names):
+            pixels = np.zeros_like(pixels) if drawn is None else drawn.read(index)
+            values[colour] = pixels[..., :3].copy()
+            if scalar:
+                values[scalar] = pixels[..., 3].copy()
     values["material"] = np.rint(values["material"]).astype(np.int32) - 1
     return ShadingInputs(**values)  # type: ignore[arg-type]

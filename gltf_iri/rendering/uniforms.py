@@ -10,8 +10,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Sampled", "bind"]
 
-# Textures of two and of three dimensions, which are bound alike.
-Sampled: TypeAlias = "moderngl.Texture | moderngl.Texture3D"
+# Textures of two and of three dimensions and arrays of them, which are bound alike.
+Sampled: TypeAlias = "moderngl.Texture | moderngl.Texture3D | moderngl.TextureArray"
 
 
 def bind(program: moderngl.Program, uniforms: Mapping[str, Any], textures: Mapping[str, Sampled]) -> None:

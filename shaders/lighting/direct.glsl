@@ -10,6 +10,10 @@
 #ifdef HAS_SHEEN
 #include "lighting/sheen.glsl"
 #endif
+#ifdef HAS_BRAGG
+#include "lighting/bragg_layers.glsl"
+#endif
+#ifndef BRAGG_WHOLE
 
 // D·V, with light and half vector on the viewer's side.
 float facets(Surface s, View w, vec3 l, vec3 h, float n_dot_l) {
@@ -52,12 +56,20 @@ vec3 light_on_base(Surface s, View w, Illuminant light) {
     }
     return vec3(0.0);
 }
+#endif
 
 vec3 punctual_lighting(Surface s, View w) {
     vec3 sent = vec3(0.0);
     for (int i = 0; i < u_light_count; ++i) {
         Illuminant light = punctual_light(i, v_position);
+#ifdef BRAGG_WHOLE
+        vec3 base = light_on_layers(s, w, light);
+#else
         vec3 base = light_on_base(s, w, light);
+#ifdef HAS_BRAGG
+        base = mix(base, light_on_layers(s, w, light), s.bragg_factor);
+#endif
+#endif
 #ifdef HAS_SHEEN
         base = sheen_over_punctual(s, w, light, base);
 #endif

@@ -22,6 +22,9 @@
 #ifdef HAS_SHEEN
 #include "lighting/sheen.glsl"
 #endif
+#if defined(HAS_BRAGG) && defined(HAS_IMAGE_LIGHT)
+#include "lighting/bragg_image.glsl"
+#endif
 
 ImageLight image_light(Surface s, View w) {
     ImageLight image = no_image_light();
@@ -54,6 +57,9 @@ ImageLight image_light(Surface s, View w) {
 #ifdef HAS_SHEEN
     image.sheen_radiance = environment_sheen_radiance(mirrored, s.sheen_roughness) * s.occlusion;
 #endif
+#ifdef HAS_BRAGG
+    image.layers = light_of_layers(s, w, mirrored, image.radiance, spread_rad);
+#endif
 #ifdef HAS_CLEARCOAT
     vec3 coat_mirrored = reflect(-w.v, w.coat_n);
     image.clearcoat_radiance =
@@ -83,6 +89,9 @@ vec3 image_lighting(Surface s, View w, ImageLight image) {
     vec3 sent = mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance, image.transmitted));
 #else
     vec3 sent = mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance));
+#endif
+#ifdef HAS_BRAGG
+    sent = mix(sent, image_on_layers(s, w, image), s.bragg_factor);
 #endif
 #ifdef HAS_SHEEN
     sent *= sheen_weight(s.sheen_color, image.sheen_albedo);

@@ -27,6 +27,10 @@ struct Surface {
     float iridescence_thickness_std_nm;  // within the pixel
 #endif
 #endif
+#ifdef HAS_BRAGG
+    float bragg_factor;
+    float bragg_period_texel;  // along which the periods of all layers run
+#endif
 #ifdef HAS_ANISOTROPY
     float anisotropy_strength;
     vec2 anisotropy_direction;  // along tangent and bitangent, unit
@@ -118,6 +122,17 @@ Surface gather_surface(vec2 uv0, vec2 uv1, vec4 vertex_colour) {
     float thickness = sample_iridescence_thickness(uv0, uv1);
 #endif
     s.iridescence_thickness_nm = mix(u_iridescence_thickness_min_nm, u_iridescence_thickness_max_nm, thickness);
+#endif
+#endif
+
+#ifdef HAS_BRAGG
+    s.bragg_factor = u_bragg_factor;
+#ifdef HAS_BRAGG_TEXTURE
+    s.bragg_factor *= sample_bragg(uv0, uv1);
+#endif
+    s.bragg_period_texel = 1.0;
+#ifdef HAS_BRAGG_PERIOD_TEXTURE
+    s.bragg_period_texel = sample_bragg_period(uv0, uv1);
 #endif
 #endif
 

@@ -3,6 +3,9 @@
 
 #include "lighting/view.glsl"
 #include "material/surface.glsl"
+#if defined(HAS_BRAGG) && defined(HAS_IMAGE_LIGHT)
+#include "lighting/layer_light.glsl"
+#endif
 
 // Image light as it reached the surface, occlusion included, and what white lobes send of it.
 struct ImageLight {
@@ -14,6 +17,9 @@ struct ImageLight {
 #endif
 #ifdef HAS_TRANSMISSION
     vec3 transmitted;  // from behind; not occluded
+#endif
+#if defined(HAS_BRAGG) && defined(HAS_IMAGE_LIGHT)
+    LayerLight layers;
 #endif
 #ifdef HAS_SHEEN
     vec3 sheen_radiance;  // prefiltered with the fibres' lobe
@@ -34,6 +40,9 @@ ImageLight no_image_light() {
 #endif
 #ifdef HAS_TRANSMISSION
     image.transmitted = vec3(0.0);
+#endif
+#if defined(HAS_BRAGG) && defined(HAS_IMAGE_LIGHT)
+    image.layers = no_layer_light();
 #endif
 #ifdef HAS_SHEEN
     image.sheen_radiance = vec3(0.0);
@@ -109,6 +118,35 @@ void write_surface(Surface s, View w, ImageLight image, vec3 colour) {
 #endif
 #ifdef HAS_ANISOTROPY
     out_anisotropy_tangent_anisotropy_strength = vec4(w.tangent, s.anisotropy_strength);
+#endif
+}
+#elif defined(BRAGG_INPUTS)
+layout(location = 0) out vec4 out_bragg_radiance_0_bragg_factor;
+layout(location = 1) out vec4 out_bragg_radiance_1_bragg_period_texel;
+layout(location = 2) out vec4 out_bragg_radiance_2;
+layout(location = 3) out vec4 out_bragg_radiance_3;
+layout(location = 4) out vec4 out_bragg_metal_radiance;
+layout(location = 5) out vec4 out_bragg_coating_radiance;
+
+void write_surface(Surface s, View w, ImageLight image, vec3 colour) {
+    out_bragg_radiance_0_bragg_factor = out_bragg_radiance_1_bragg_period_texel = vec4(0.0);
+    out_bragg_radiance_2 = out_bragg_radiance_3 = vec4(0.0);
+    out_bragg_metal_radiance = out_bragg_coating_radiance = vec4(0.0);
+#ifdef HAS_BRAGG
+    out_bragg_radiance_0_bragg_factor.a = s.bragg_factor;
+    out_bragg_radiance_1_bragg_period_texel.a = s.bragg_period_texel;
+#ifdef HAS_IMAGE_LIGHT
+    vec3 radiance[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    for (int i = 0; i < BRAGG_LAYERS; ++i) {
+        radiance[i] = image.layers.radiance[i];
+    }
+    out_bragg_radiance_0_bragg_factor.rgb = radiance[0];
+    out_bragg_radiance_1_bragg_period_texel.rgb = radiance[1];
+    out_bragg_radiance_2.rgb = radiance[2];
+    out_bragg_radiance_3.rgb = radiance[3];
+    out_bragg_metal_radiance.rgb = image.layers.metal_radiance;
+    out_bragg_coating_radiance.rgb = image.layers.coating_radiance;
+#endif
 #endif
 }
 #else

@@ -15,7 +15,7 @@ from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.rendering.frame import Frame, ShadingInputs
+from gltf_iri.rendering.frame import BRAGG_INPUT_TARGETS, Frame, ShadingInputs
 from gltf_iri.rendering.render import Renderer
 from gltf_iri.scene.environment import studio
 from gltf_iri.scene.model import Camera, Environment, Light
@@ -70,6 +70,8 @@ def row_of_pixels() -> Callable[..., ShadingInputs]:
             "anisotropy_strength": 0,
             "layer_albedos": (0, 0, 0),
             "facet_cosine": 0,
+            **{colour: (0, 0, 0) for colour, _ in BRAGG_INPUT_TARGETS},
+            **{scalar: 0 for _, scalar in BRAGG_INPUT_TARGETS if scalar},
         }
         quantities.update(values)
         rows = {

@@ -1,0 +1,191 @@
+"""Baked tables of Bragg layers as one texture, and the numbers that shaders of layers read.
+
+shaders/lighting/layer_tables.glsl says what lies where in the texture. It filters: graphics cards do so with
+weights of eight bits, so that a factor between two nodes is off by up to 1/512 of what they differ by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.baking.baked_layers import BakedLayers
+from gltf_iri.errors import MissingCapabilityError, UsageError
+from gltf_iri.optics.layer_stack import coating_transmittance
+from gltf_iri.optics.quadrature import gauss_unit
+from gltf_iri.planning.layer_plan import LayersPlan
+from gltf_iri.planning.material_plan import MaterialPlan
+from gltf_iri.planning.method import find_method
+from gltf_iri.rendering.uniforms import Sampled
+
+if TYPE_CHECKING:
+    import moderngl
+
+__all__ = ["LayerTableStore", "checked_layers", "direct_tables", "layer_table_slices"]
+__all__ += ["layer_uniforms"]
+
+Floats = NDArray[np.floating[Any]]
+
+_SAMPLER = "u_bragg_tables"
+# What is drawn without tables.
+_DIRECT = "layers-single"
+
+
+def checked_layers(
+    plan: MaterialPlan, layer_tables: Mapping[int, BakedLayers], white: str
+) -> BakedLayers | None:
+    """Return the filled tables of the layers of `plan`; None where it has none or needs no tables.
+
+    layer_tables : by the plans' index (`baking.layer_fill.bake_layer_plans`).
+    white : what they must have been filled under.
+
+    Raises UsageError where tables are missing, and for a method that is drawn from tables only.
+    """
+    if plan.layers is None:
+        return None
+    if plan.layers.tables is None:
+        if plan.layers.method != _DIRECT:
+            raise UsageError(
+                f"Of layers only '{_DIRECT}' is drawn without tables, and the plan of material {plan.index} "
+                f"names '{plan.layers.method}' without; plan it with plan_layers."
+            )
+        return None
+    baked = layer_tables.get(plan.index)
+    if baked is None or baked.plan != plan.layers or baked.white != white:
+        raise UsageError(
+            f"The plan of material {plan.index} wants tables of its layers under {white}, and "
+            f"{'none' if baked is None else 'others'} were given; fill them with bake_layer_plans."
+        )
+    return baked
+
+
+class LayerTableStore:
+    """The layers of one picture's plans; what no plan asks for is never uploaded."""
+
+    def __init__(
+        self, context: moderngl.Context, layer_tables: Mapping[int, BakedLayers], white: str
+    ) -> None:
+        self._context = context
+        self._baked, self._white = layer_tables, white
+        self._textures: dict[int, Sampled] = {}
+
+    def uniforms(self, plan: MaterialPlan) -> dict[str, Any]:
+        """Return the uniforms of the layers of `plan`, none without; raises as `checked_layers`."""
+        if plan.layers is None:
+            return {}
+        baked = checked_layers(plan, self._baked, self._white)
+        return layer_uniforms(plan.layers) | ({} if baked is None else _table_uniforms(baked))
+
+    def textures(self, plan: MaterialPlan) -> dict[str, Sampled]:
+        """Return the textures by the names of their samplers; raises as `checked_layers`."""
+        baked = checked_layers(plan, self._baked, self._white)
+        if baked is None:
+            return {}
+        if plan.index not in self._textures:
+            self._textures[plan.index] = _texture(self._context, baked)
+        return {_SAMPLER: self._textures[plan.index]}
+
+    def release(self) -> None:
+        """Give everything back to OpenGL."""
+        for texture in self._textures.values():
+            texture.release()
+        self._textures.clear()
+
+
+def layer_table_slices(baked: BakedLayers) -> Floats:
+    """Return the slices (S, P, C, 4), four bands each, in the order that shaders count them.
+
+    The first layer's reflection and albedo as colours; reflectance and albedo of each other layer; then what
+    each lets pass, of the last only where something lies below, and there what of a white sky passes each.
+    """
+    has_base = baked.plan.under == "base"
+    layers, periods, cosines, bands = baked.reflected.shape
+    quads = -(-bands // 4)
+
+    def split(values: Floats) -> Floats:
+        """(L, P, C, B') → (L·Q, P, C, 4)."""
+        parts = values.reshape(len(values), periods, cosines, quads, 4)
+        return np.moveaxis(parts, 3, 1).reshape(-1, periods, cosines, 4)
+
+    slices = [
+        baked.first[None],
+        baked.first_albedo[None],
+        split(baked.reflected[1:]),
+        split(baked.albedo[1:]),
+    ]
+    slices.append(split(baked.transmitted[: layers if has_base else layers - 1]))
+    if has_base:
+        everywhere = np.broadcast_to(baked.irradiance[:, :, None, :], baked.transmitted.shape)
+        slices.append(split(np.asarray(everywhere)))
+    return np.concatenate(slices)
+
+
+def layer_uniforms(layers: LayersPlan) -> dict[str, Any]:
+    """Return what shaders are told of the layers themselves; `_table_uniforms` adds where tables lie."""
+    span = layers.texel
+    length = span.high - span.low
+    exit_ior = layers.layers[-1].n1
+    nodes, weights = gauss_unit(64)
+    entering = 2.0 * float(np.sum(weights * nodes * coating_transmittance(layers.host_ior, nodes)))
+    films = [(layer.n1, layer.n2, layer.fill, float(layer.cells)) for layer in layers.layers]
+    periods = [
+        (low, (high - low) / length if length > 0.0 else 0.0)
+        for low, high in (layer.period_nm for layer in layers.layers)
+    ]
+    return {
+        "u_bragg_alpha": _array([layer.alpha for layer in layers.layers]),
+        "u_bragg_bent": (layers.host_ior / exit_ior) ** 2,
+        "u_bragg_coating_irradiance": entering,
+        "u_bragg_films": _array(films),
+        "u_bragg_periods_nm": _array(periods),
+        "u_bragg_texel_low": span.low,
+    }
+
+
+def _table_uniforms(baked: BakedLayers) -> dict[str, Any]:
+    """Return each axis as (first value, scale, first node's place), and the bands' weights."""
+    _, periods, cosines, _ = baked.reflected.shape
+    texel = baked.plan.texel
+    length = texel.high - texel.low
+    # Of one node there is no way to go: any value is at it.
+    scale = (periods - 1) / periods / length if length > 0.0 else 0.0
+    return {
+        "u_bragg_cosine": (0.0, (cosines - 1) / cosines, 0.5 / cosines),
+        "u_bragg_texel": (texel.low, scale, 0.5 / periods),
+        "u_bragg_weights": [tuple(row) for row in baked.weights.tolist()],
+    }
+
+
+def _array(values: Sequence[Any]) -> Any:
+    # Arrays of one are set as their only element.
+    return values[0] if len(values) == 1 else list(values)
+
+
+def _texture(context: moderngl.Context, baked: BakedLayers) -> Sampled:
+    """Return the tables as a filtering texture array, RGBA16F or RGBA32F, the caller's to release."""
+    slices = layer_table_slices(baked)
+    count, height, width, _ = slices.shape
+    limit = context.info["GL_MAX_TEXTURE_SIZE"]
+    most = context.info["GL_MAX_ARRAY_TEXTURE_LAYERS"]
+    if max(width, height) > limit or count > most:
+        raise MissingCapabilityError(
+            f"The layers' tables want {count} slices of {width} × {height}; this OpenGL takes {most} of "
+            f"{limit} a side. Let '--budget' choose, which finds smaller tables."
+        )
+    tables = baked.plan.tables
+    kind = "f2" if tables is not None and tables.texel == "f2" else "f4"
+    data = slices.astype(np.float16 if kind == "f2" else np.float32).tobytes()
+    texture = context.texture_array((width, height, count), 4, data, dtype=kind)
+    texture.repeat_x = texture.repeat_y = False
+    texture.filter = (context.LINEAR, context.LINEAR)
+    return texture
+
+
+def direct_tables(plan: MaterialPlan) -> tuple[str, ...]:
+    """Return the names of the optics tables that the layers of `plan` are computed from directly."""
+    if plan.layers is None or plan.layers.tables is not None:
+        return ()
+    return find_method(plan.layers.method).glsl_tables

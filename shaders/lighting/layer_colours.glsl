@@ -1,0 +1,13 @@
+// The colours of Bragg layers by the method that the plan chose, and what all methods read of the layers.
+// Every method brings `layer_reflected` and `layers_passed`, which gltf_iri/evaluation/layers.py asks of it in Python.
+
+uniform float u_bragg_alpha[BRAGG_LAYERS];  // perceptual roughness squared, outermost first
+#ifdef BRAGG_BASE
+uniform float u_bragg_bent;  // (host's index / index of what the base lies in)²
+#endif
+
+#ifdef BRAGG_TABLES
+#include "lighting/layer_tables.glsl"
+#else
+#include "lighting/layers_direct.glsl"
+#endif
