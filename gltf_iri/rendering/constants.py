@@ -143,6 +143,10 @@ def bragg_constants_glsl() -> str:
             _array("FILTER_WEIGHTS", inside_weights.tolist()),
         ],
         [
+            "// gltf_iri/rendering/optics_tables.py",
+            f"const int COARSE_COUNT = {optics_tables.SPECTRAL_COARSE_DEGREE + 1};",
+        ],
+        [
             "// gltf_iri/material/bragg.py",
             f"const int BRAGG_LAYERS_MAX = {BRAGG_LAYERS_MAX};",
         ],

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.colour.bands import bands_of
 from gltf_iri.colour.quadrature import SPECTRAL_DEGREE, colour_rule
 from gltf_iri.colour.sensitivity_table import END_NM, sensitivity_table
 from gltf_iri.colour.spaces import White
@@ -36,6 +37,7 @@ __all__ += [
     "SENSITIVITY_ROW_BITS",
     "SENSITIVITY_SLOPE_BITS",
     "SENSITIVITY_SLOPE_MAX",
+    "SPECTRAL_COARSE_DEGREE",
     "SPECTRAL_SMOOTH_DEGREE",
 ]
 __all__ += ["OpticsTableStore", "Table", "optics_table", "table_texture"]
@@ -51,6 +53,9 @@ _CHANNELS: Final = 4
 
 # Spectra without fringes, of films that are very thin or frustrated.
 SPECTRAL_SMOOTH_DEGREE: Final = 32
+
+# Of spectra averaged over the facets of a rough layer; every fourth wavelength of the whole rule.
+SPECTRAL_COARSE_DEGREE: Final = SPECTRAL_DEGREE // 4
 
 # Each texel holds lines, which err by h²/16 · |Ŝ″|: 1e-6 at a quarter of a nanometre, and beyond the fine
 # part, where |Ŝ| has fallen below 0.05, no more at a whole one. The fine part ends half way between texels.
@@ -70,12 +75,13 @@ SENSITIVITY_ROWS: Final = SENSITIVITY_LAST // SENSITIVITY_ROW + 1
 
 
 def _spectral_rule(white: White, **parameters: ParameterValue) -> Float32:
-    """Return (3, SPECTRAL_DEGREE + 1, 4).
+    """Return (4, SPECTRAL_DEGREE + 1, 4).
 
     The first row holds 1/λ in 1/nm as a part of twelve bits and the rest, the second the weights, the third
-    weights and 1/λ of the rule of SPECTRAL_SMOOTH_DEGREE.
+    weights and 1/λ of the rule of SPECTRAL_SMOOTH_DEGREE, the last the weights of that of
+    SPECTRAL_COARSE_DEGREE, whose wavelengths are each fourth of the first row.
     """
-    rows = np.zeros((3, SPECTRAL_DEGREE + 1, 4), dtype=np.float32)
+    rows = np.zeros((4, SPECTRAL_DEGREE + 1, 4), dtype=np.float32)
     rule, smooth = colour_rule(SPECTRAL_DEGREE, white), colour_rule(SPECTRAL_SMOOTH_DEGREE, white)
     wavenumber = 1.0 / rule.wavelength_nm
     leading = (wavenumber.astype(np.float32).view(np.uint32) & np.uint32(0xFFFFF000)).view(np.float32)
@@ -83,7 +89,20 @@ def _spectral_rule(white: White, **parameters: ParameterValue) -> Float32:
     rows[1, :, :3] = rule.weights
     rows[2, : SPECTRAL_SMOOTH_DEGREE + 1, :3] = smooth.weights
     rows[2, : SPECTRAL_SMOOTH_DEGREE + 1, 3] = 1.0 / smooth.wavelength_nm
+    rows[3, : SPECTRAL_COARSE_DEGREE + 1, :3] = colour_rule(SPECTRAL_COARSE_DEGREE, white).weights
     return rows
+
+
+def _layer_bands(white: White, bands: int = 16, **parameters: ParameterValue) -> Float32:
+    """Return (rows, SPECTRAL_COARSE_DEGREE + 4, 4): four bands a row, the last filled up with 0.
+
+    For each wavelength of the coarse rule what it adds to the means, then the weights in red, green, blue.
+    """
+    rule, held = colour_rule(SPECTRAL_COARSE_DEGREE, white), bands_of(bands, white)
+    columns = np.concatenate([held.shares(rule), held.weights.T])
+    padded = np.zeros((len(columns), -(-bands // _CHANNELS) * _CHANNELS), dtype=np.float32)
+    padded[:, :bands] = columns
+    return np.ascontiguousarray(padded.reshape(len(columns), -1, _CHANNELS).swapaxes(0, 1))
 
 
 def _film_sensitivity(white: White, tolerance: float = 1.0, **parameters: ParameterValue) -> UInt32:
@@ -127,6 +146,7 @@ OPTICS_TABLES: Final[Mapping[str, TableFill]] = MappingProxyType(
         "film_sensitivity_spread": film_sensitivity_spread,
         "cumulative_colour": cumulative_table,
         "bloch_weights": bloch_table,
+        "layer_bands": _layer_bands,
     }
 )
 

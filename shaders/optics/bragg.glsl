@@ -49,13 +49,49 @@ BraggMirror bragg_mirror(
     return mirror;
 }
 
+// What a wavelength makes of the mirror: cos ½φ and sin ½φ / q of the two films, and what the squares of the second
+// are to be multiplied by.
+struct BraggWaves {
+    vec2 first;
+    vec2 second;
+    float scale;
+};
+
+// wavenumber : 1/λ in two parts, the first of twelve bits, 1/nm
+BraggWaves bragg_waves(BraggMirror mirror, vec2 wavenumber) {
+    BraggWaves wave;
+    wave.first = film_wave(mirror.half_path_1, wavenumber);
+    wave.second = film_wave(mirror.half_path_2, wavenumber);
+    // Light that fades in n2 comes divided by cosh ½|φ₂| from an exponent of 1 on. Beyond 5 float32 tells no share
+    // that passes from 0.
+    wave.scale = 1.0;
+    float decay = 2.0 * PI * mirror.half_path_2.thickness_nm * (wavenumber.x + wavenumber.y) * mirror.half_path_2.q2;
+    if (mirror.half_path_2.q2_squared < 0.0 && sq(decay) >= 1.0) {
+        float growth = exp(min(decay, 5.0));
+        wave.scale = 0.25 * sq(growth + 1.0 / growth);
+    }
+    return wave;
+}
+
+// 1 − x and 1 + x of x, the cosine of a cell's own phase, as sums and products that keep the digits of either
+vec2 bragg_cell_cosine(BraggPolarisation y, BraggWaves wave) {
+    vec2 sc = y.m * vec2(wave.first.y * wave.second.x, wave.first.x * wave.second.y);
+    float cc = wave.first.x * wave.second.x;
+    float ss = y.m.x * y.m.y * wave.first.y * wave.second.y;
+    return 2.0 * wave.scale *
+           vec2(dot(y.y_squared, sc) * (sc.x + sc.y), (cc - y.y_squared.x * ss) * (cc - y.y_squared.y * ss));
+}
+
 // T_N(x) and U_{N−1}(x) by doubling; gltf_iri/optics/chebyshev_u.py
 // Deep in a gap it stops, beyond what U reaches at the edge of 10⁶ cells: all is reflected, and squares overflow.
-vec2 chebyshev_pair(float x, float one_minus_x2, uint cells, int top_bit) {
+vec2 chebyshev_pair(BraggMirror mirror, BraggPolarisation y, BraggWaves wave) {
+    vec2 cosine = bragg_cell_cosine(y, wave);
+    float x = 1.0 - cosine.x;
+    float one_minus_x2 = cosine.x * cosine.y;
     vec2 tu = vec2(x, 1.0);
-    for (int bit = top_bit - 1; bit >= 0 && abs(tu.x) + abs(tu.y) < 4e6; --bit) {
+    for (int bit = mirror.top_bit - 1; bit >= 0 && abs(tu.x) + abs(tu.y) < 4e6; --bit) {
         tu = vec2(sq(tu.x) - one_minus_x2 * sq(tu.y), 2.0 * tu.x * tu.y);
-        if (((cells >> uint(bit)) & 1u) == 1u) {
+        if (((mirror.cells >> uint(bit)) & 1u) == 1u) {
             tu = vec2(x * tu.x - one_minus_x2 * tu.y, x * tu.y + tu.x);
         }
     }
@@ -64,22 +100,15 @@ vec2 chebyshev_pair(float x, float one_minus_x2, uint cells, int top_bit) {
 
 // R = N/(N + 4 Y_h Y₁) with N = ((Y_h − Y₁)T − ½(Y_h + Y₁)U ΔY² b₁b₂)² + U²(Y₁(Y_h − Y₁)B − ΔY² b₂ cos φ₁)²,
 // b = sin φ / Y, B = b₁ cos φ₂ + b₂ cos φ₁; Fourneau et al. 2024, Eq. 2 and Appendix D, over a common denominator
-// wave_1, wave_2 : cos ½φ and sin ½φ / q; scale : what the squares of wave_2 are to be multiplied by
-float bragg_reflectance(BraggMirror mirror, BraggPolarisation y, vec2 wave_1, vec2 wave_2, float scale) {
-    vec2 sc = y.m * vec2(wave_1.y * wave_2.x, wave_1.x * wave_2.y);
-    float cc = wave_1.x * wave_2.x;
-    float ss = y.m.x * y.m.y * wave_1.y * wave_2.y;
-    float one_minus = 2.0 * scale * (dot(y.y_squared, sc) * (sc.x + sc.y));
-    float one_plus = 2.0 * scale * ((cc - y.y_squared.x * ss) * (cc - y.y_squared.y * ss));
-    vec2 tu = chebyshev_pair(1.0 - one_minus, one_minus * one_plus, mirror.cells, mirror.top_bit);
-
+// tu : T_N and U_{N−1}
+float bragg_reflectance(BraggMirror mirror, BraggPolarisation y, BraggWaves wave, vec2 tu) {
     float size = max(1.0, max(abs(tu.x), abs(tu.y)));  // keeps the squares below float32's greatest number
     tu /= size;
 
-    float b_1 = 2.0 * y.m.x * wave_1.x * wave_1.y;
-    float b_2 = 2.0 * y.m.y * wave_2.x * wave_2.y * scale;
-    float cos_1 = 1.0 - 2.0 * mirror.half_path_1.q2_squared * sq(wave_1.y);
-    float cos_2 = scale * (sq(wave_2.x) - mirror.half_path_2.q2_squared * sq(wave_2.y));
+    float b_1 = 2.0 * y.m.x * wave.first.x * wave.first.y;
+    float b_2 = 2.0 * y.m.y * wave.second.x * wave.second.y * wave.scale;
+    float cos_1 = 1.0 - 2.0 * mirror.half_path_1.q2_squared * sq(wave.first.y);
+    float cos_2 = wave.scale * (sq(wave.second.x) - mirror.half_path_2.q2_squared * sq(wave.second.y));
     float out_of_host = y.y_host - y.y_1;
     float swing = y.step_up * b_2;
     float real = out_of_host * tu.x - 0.5 * (y.y_host + y.y_1) * swing * b_1 * tu.y;
@@ -93,18 +122,9 @@ float bragg_reflectance(BraggMirror mirror, BraggPolarisation y, vec2 wave_1, ve
 // wavenumber : 1/λ in two parts, the first of twelve bits, 1/nm
 float bragg_reflectance(BraggMirror mirror, vec2 wavenumber) {
     if (mirror.is_total) return 1.0;
-    vec2 wave_1 = film_wave(mirror.half_path_1, wavenumber);
-    vec2 wave_2 = film_wave(mirror.half_path_2, wavenumber);
-    // Light that fades in n2 comes divided by cosh ½|φ₂| from an exponent of 1 on. Beyond 5 float32 tells no share
-    // that passes from 0.
-    float scale = 1.0;
-    float decay = 2.0 * PI * mirror.half_path_2.thickness_nm * (wavenumber.x + wavenumber.y) * mirror.half_path_2.q2;
-    if (mirror.half_path_2.q2_squared < 0.0 && sq(decay) >= 1.0) {
-        float growth = exp(min(decay, 5.0));
-        scale = 0.25 * sq(growth + 1.0 / growth);
-    }
-    return 0.5 * (bragg_reflectance(mirror, mirror.s, wave_1, wave_2, scale) +
-                  bragg_reflectance(mirror, mirror.p, wave_1, wave_2, scale));
+    BraggWaves wave = bragg_waves(mirror, wavenumber);
+    return 0.5 * (bragg_reflectance(mirror, mirror.s, wave, chebyshev_pair(mirror, mirror.s, wave)) +
+                  bragg_reflectance(mirror, mirror.p, wave, chebyshev_pair(mirror, mirror.p, wave)));
 }
 
 float bragg_reflectance(

@@ -2,57 +2,45 @@
 // multiplied band by band; what nothing attenuates is summed as a colour.
 // Twin: gltf_iri/evaluation/layers_bands.py; gltf_iri/rendering/optics_tables.py fills the table.
 
-#include "optics/layer_stack.glsl"
-#include "optics/rough_bragg.glsl"
+#include "optics/layer_waves.glsl"
 #include "optics/yeh_spectral.glsl"
 
-// Row 0: each wavelength's part in a band, band after band: 1/λ in two parts, the first of twelve bits, its share of
-// the band's mean, and the band. Row 1: the bands' weights, and in the first's fourth their number.
+// Four bands a row, the last filled up with 0: what each wavelength of the coarse rule adds to their means, and in
+// three columns more their weights in red, green and blue.
 uniform highp sampler2D layer_bands;
 
-const int LAYER_BANDS_MAX = 64;
+const int BAND_QUADS_MAX = 16;
 
-BraggMirror facet_mirror(float host_ior, BraggLayer layer, float cos_theta) {
-    return bragg_mirror(host_ior, layer.n1, layer.n2, layer.d1_nm, layer.d2_nm, layer.cells, cos_theta);
-}
+int band_quads() { return textureSize(layer_bands, 0).y; }
 
-int layer_bands_count() { return int(texelFetch(layer_bands, ivec2(0, 1), 0).a + 0.5); }
-
-// means + the bands' means of `base` + `slope`·R; of the mirror's reflectance alone for 0 and 1
-void add_means(inout float means[LAYER_BANDS_MAX], BraggMirror mirror, float base, float slope) {
-    int parts = textureSize(layer_bands, 0).x;
-    for (int i = 0; i < parts; ++i) {
-        vec4 part = texelFetch(layer_bands, ivec2(i, 0), 0);
-        means[int(part.w)] += part.z * (base + slope * bragg_reflectance(mirror, part.xy));
+void band_means(out vec4 means[BAND_QUADS_MAX], vec4 spectrum[LAYER_QUADS_MAX]) {
+    int count = coarse_count();
+    int rows = band_quads();
+    for (int row = 0; row < rows; ++row) {
+        means[row] = vec4(0.0);
+        for (int i = 0; i < count; ++i) means[row] += spectrum[i / 4][i & 3] * texelFetch(layer_bands, ivec2(i, row), 0);
     }
-}
-
-// means · those of T(λ, θ) = ∫ (1 − R(λ, θ_d)) F_α dθ_d
-// Fourneau et al. 2024, Eq. 28
-void pass_layer(inout float means[LAYER_BANDS_MAX], float host_ior, BraggLayer layer, float cos_theta) {
-    int bands = layer_bands_count();
-    float passed[LAYER_BANDS_MAX];
-    for (int b = 0; b < bands; ++b) passed[b] = 0.0;
-    FilterLight light = filter_light(cos_theta, layer.alpha);
-    int nodes = filter_count(layer.alpha);
-    for (int node = 0; node < nodes; ++node) {
-        vec2 met = filter_node(light, node);
-        add_means(passed, facet_mirror(host_ior, layer, met.x), met.y, -met.y);
-    }
-    for (int b = 0; b < bands; ++b) means[b] *= passed[b];
 }
 
 // Σ_b W_b means_b Π_{k<above} T_k,b(i) T_k,b(o)
-vec3 passed_bands_colour(
-    inout float means[LAYER_BANDS_MAX], float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int above, float cos_i,
+vec3 passed_colour(
+    vec4 means[BAND_QUADS_MAX], float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int above, float cos_i,
     float cos_o) {
-    for (int k = 0; k < above; ++k) {
-        pass_layer(means, host_ior, layers[k], cos_i);
-        pass_layer(means, host_ior, layers[k], cos_o);
+    int rows = band_quads();
+    for (int side = 0; side < 2 * above; ++side) {
+        vec4 spectrum[LAYER_QUADS_MAX];
+        layer_passed(spectrum, host_ior, layers[side / 2], (side & 1) == 0 ? cos_i : cos_o);
+        vec4 passed[BAND_QUADS_MAX];
+        band_means(passed, spectrum);
+        for (int row = 0; row < rows; ++row) means[row] *= passed[row];
     }
     vec3 colour = vec3(0.0);
-    int bands = layer_bands_count();
-    for (int b = 0; b < bands; ++b) colour += means[b] * texelFetch(layer_bands, ivec2(b, 1), 0).rgb;
+    int first = coarse_count();
+    for (int row = 0; row < rows; ++row) {
+        colour += vec3(dot(means[row], texelFetch(layer_bands, ivec2(first, row), 0)),
+                       dot(means[row], texelFetch(layer_bands, ivec2(first + 1, row), 0)),
+                       dot(means[row], texelFetch(layer_bands, ivec2(first + 2, row), 0)));
+    }
     return colour;
 }
 
@@ -64,17 +52,19 @@ vec3 stack_reflected(
     if (layer == 0) {
         return mirror_colour_yeh_spectral(host_ior, met.n1, met.n2, met.d1_nm, met.d2_nm, met.cells, cos_h);
     }
-    float means[LAYER_BANDS_MAX];
-    int bands = layer_bands_count();
-    for (int b = 0; b < bands; ++b) means[b] = 0.0;
-    add_means(means, facet_mirror(host_ior, met, cos_h), 0.0, 1.0);
-    return passed_bands_colour(means, host_ior, layers, layer, cos_i, cos_o);
+    vec4 spectrum[LAYER_QUADS_MAX];
+    BraggMirror mirror = facet_mirror(host_ior, met, cos_h);
+    int quads = layer_quads();
+    for (int quad = 0; quad < quads; ++quad) spectrum[quad] = facet_reflectance(mirror, quad);
+    vec4 means[BAND_QUADS_MAX];
+    band_means(means, spectrum);
+    return passed_colour(means, host_ior, layers, layer, cos_i, cos_o);
 }
 
 // The colour of Π_k T_k(i) T_k(o) over the first `count` layers
 vec3 stack_passed(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i, float cos_o) {
-    float means[LAYER_BANDS_MAX];
-    int bands = layer_bands_count();
-    for (int b = 0; b < bands; ++b) means[b] = 1.0;
-    return passed_bands_colour(means, host_ior, layers, count, cos_i, cos_o);
+    vec4 means[BAND_QUADS_MAX];
+    int rows = band_quads();
+    for (int row = 0; row < rows; ++row) means[row] = vec4(1.0);
+    return passed_colour(means, host_ior, layers, count, cos_i, cos_o);
 }

@@ -15,3 +15,8 @@ vec3 spectral_weight(int i) { return texelFetch(spectral_rule, ivec2(i, 1), 0).r
 
 // A short rule of SPECTRAL_SMOOTH_COUNT wavelengths, for spectra without fringes: the weights, and 1/λ in 1/nm.
 vec4 smooth_node(int i) { return texelFetch(spectral_rule, ivec2(i, 2), 0); }
+
+// A coarse rule of each fourth wavelength, for what is averaged over angles; COARSE_COUNT at most.
+int coarse_count() { return (spectral_count() + 3) / 4; }
+vec2 coarse_wavenumber(int i) { return spectral_wavenumber(4 * min(i, coarse_count() - 1)); }
+vec3 coarse_weight(int i) { return texelFetch(spectral_rule, ivec2(i, 3), 0).rgb; }
