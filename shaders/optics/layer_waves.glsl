@@ -50,16 +50,29 @@ vec4 facet_reflectance(BraggMirror mirror, int quad) {
                 facet_reflectance(mirror, coarse_wavenumber(i + 2)), facet_reflectance(mirror, coarse_wavenumber(i + 3)));
 }
 
-// T(λ, θ) = ∫ (1 − R(λ, θ_d)) F_α dθ_d
+// R(λ, θ) where `reflects`, else T(λ, θ) = ∫ (1 − R(λ, θ_d)) F_α dθ_d; one loop for both, as compilers copy functions
 // Fourneau et al. 2024, Eq. 28
-void layer_passed(out vec4 passed[LAYER_QUADS_MAX], float host_ior, BraggLayer layer, float cos_theta) {
+void layer_spectrum(
+    out vec4 spectrum[LAYER_QUADS_MAX], float host_ior, BraggLayer layer, float cos_theta, bool reflects) {
     int quads = layer_quads();
-    for (int quad = 0; quad < quads; ++quad) passed[quad] = vec4(0.0);
-    FilterLight light = filter_light(cos_theta, layer.alpha);
-    int nodes = filter_count(layer.alpha);
+    for (int quad = 0; quad < quads; ++quad) spectrum[quad] = vec4(0.0);
+    FilterLight light = filter_light(cos_theta, reflects ? 0.0 : layer.alpha);
+    int nodes = filter_count(light.alpha);
     for (int node = 0; node < nodes; ++node) {
         vec2 met = filter_node(light, node);
         BraggMirror mirror = facet_mirror(host_ior, layer, met.x);
-        for (int quad = 0; quad < quads; ++quad) passed[quad] += met.y * (1.0 - facet_reflectance(mirror, quad));
+        for (int quad = 0; quad < quads; ++quad) {
+            vec4 reflected = facet_reflectance(mirror, quad);
+            spectrum[quad] += met.y * (reflects ? reflected : 1.0 - reflected);
+        }
     }
+}
+
+// Of the factors of R_above(h) Π_{k<above} T_k(i) T_k(o): 0 is R, the others are T, of light and viewer in turn.
+void path_factor(
+    out vec4 spectrum[LAYER_QUADS_MAX], int factor, float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int above,
+    float cos_h, float cos_i, float cos_o) {
+    int layer = factor == 0 ? above : (factor - 1) / 2;
+    float cosine = factor == 0 ? cos_h : (factor & 1) == 1 ? cos_i : cos_o;
+    layer_spectrum(spectrum, host_ior, layers[layer], cosine, factor == 0);
 }

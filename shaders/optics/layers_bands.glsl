@@ -22,17 +22,19 @@ void band_means(out vec4 means[BAND_QUADS_MAX], vec4 spectrum[LAYER_QUADS_MAX]) 
     }
 }
 
-// Σ_b W_b means_b Π_{k<above} T_k,b(i) T_k,b(o)
-vec3 passed_colour(
-    vec4 means[BAND_QUADS_MAX], float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int above, float cos_i,
+// Σ_b W_b Π_{k<above} T_k,b(i) T_k,b(o), times R_above,b(h) where `reflects`
+vec3 path_colour(
+    float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int above, bool reflects, float cos_h, float cos_i,
     float cos_o) {
     int rows = band_quads();
-    for (int side = 0; side < 2 * above; ++side) {
+    vec4 means[BAND_QUADS_MAX];
+    for (int row = 0; row < rows; ++row) means[row] = vec4(1.0);
+    for (int factor = reflects ? 0 : 1; factor <= 2 * above; ++factor) {
         vec4 spectrum[LAYER_QUADS_MAX];
-        layer_passed(spectrum, host_ior, layers[side / 2], (side & 1) == 0 ? cos_i : cos_o);
-        vec4 passed[BAND_QUADS_MAX];
-        band_means(passed, spectrum);
-        for (int row = 0; row < rows; ++row) means[row] *= passed[row];
+        path_factor(spectrum, factor, host_ior, layers, above, cos_h, cos_i, cos_o);
+        vec4 each[BAND_QUADS_MAX];
+        band_means(each, spectrum);
+        for (int row = 0; row < rows; ++row) means[row] *= each[row];
     }
     vec3 colour = vec3(0.0);
     int first = coarse_count();
@@ -45,26 +47,17 @@ vec3 passed_colour(
 }
 
 // The colour of R_layer(h) Π_{k<layer} T_k(i) T_k(o); cosines in the host
-// Fourneau et al. 2024, Eq. 34
+// Fourneau et al. 2024, Eq. 34; what nothing attenuates is summed over all wavelengths.
 vec3 stack_reflected(
     float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int layer, float cos_h, float cos_i, float cos_o) {
     BraggLayer met = layers[layer];
     if (layer == 0) {
         return mirror_colour_yeh_spectral(host_ior, met.n1, met.n2, met.d1_nm, met.d2_nm, met.cells, cos_h);
     }
-    vec4 spectrum[LAYER_QUADS_MAX];
-    BraggMirror mirror = facet_mirror(host_ior, met, cos_h);
-    int quads = layer_quads();
-    for (int quad = 0; quad < quads; ++quad) spectrum[quad] = facet_reflectance(mirror, quad);
-    vec4 means[BAND_QUADS_MAX];
-    band_means(means, spectrum);
-    return passed_colour(means, host_ior, layers, layer, cos_i, cos_o);
+    return path_colour(host_ior, layers, layer, true, cos_h, cos_i, cos_o);
 }
 
 // The colour of Π_k T_k(i) T_k(o) over the first `count` layers
 vec3 stack_passed(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i, float cos_o) {
-    vec4 means[BAND_QUADS_MAX];
-    int rows = band_quads();
-    for (int row = 0; row < rows; ++row) means[row] = vec4(1.0);
-    return passed_colour(means, host_ior, layers, count, cos_i, cos_o);
+    return path_colour(host_ior, layers, count, false, 1.0, cos_i, cos_o);
 }
