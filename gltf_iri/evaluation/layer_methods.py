@@ -11,6 +11,8 @@ from types import MappingProxyType
 from gltf_iri.colour.spaces import WHITES, Light
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.layers import LayerColours, LayerStack
+from gltf_iri.evaluation.layers_bands import LayersBands
+from gltf_iri.evaluation.layers_rgb import LayersRgb
 from gltf_iri.evaluation.layers_single import LayersSingle
 from gltf_iri.evaluation.layers_single_table import LayersSingleTable
 from gltf_iri.evaluation.parameters import checked_parameters
@@ -23,6 +25,8 @@ LAYER_COLOURS: Mapping[str, Callable[..., LayerColours]] = MappingProxyType(
     {
         "layers-single": LayersSingle,
         "layers-single-table": LayersSingleTable,
+        "layers-rgb": LayersRgb,
+        "layers-bands": LayersBands,
     }
 )
 

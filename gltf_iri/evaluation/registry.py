@@ -22,6 +22,8 @@ from gltf_iri.evaluation.khr import evaluate_khr
 from gltf_iri.evaluation.khr_guarded import evaluate_khr_guarded
 from gltf_iri.evaluation.landmarks import evaluate_landmarks, evaluate_landmarks_sub
 from gltf_iri.evaluation.layers import LayeredSurface
+from gltf_iri.evaluation.layers_bands import evaluate_layers_bands
+from gltf_iri.evaluation.layers_rgb import evaluate_layers_rgb
 from gltf_iri.evaluation.layers_single import evaluate_layers_single
 from gltf_iri.evaluation.layers_single_table import evaluate_layers_single_table
 from gltf_iri.evaluation.mirror import Mirror
@@ -61,6 +63,8 @@ EVALUATORS: Mapping[str, Evaluator] = MappingProxyType(
         "bloch": evaluate_bloch,
         "layers-single": evaluate_layers_single,
         "layers-single-table": evaluate_layers_single_table,
+        "layers-rgb": evaluate_layers_rgb,
+        "layers-bands": evaluate_layers_bands,
     }
 )
 

@@ -37,4 +37,31 @@ LAYER_METHODS: Final = (
             ),
         ),
     ),
+    Method(
+        "layers-rgb",
+        "layers",
+        "Paths that reflect once, every factor a colour, and colours multiplied.",
+        "Fourneau et al. 2024, Eq. 28 and 34, over the RGB reflectances of §3.2 or of this project",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=None,
+        parameters=(
+            Parameter(
+                "reflectance",
+                "The method for mirrors that colours the facets.",
+                "bloch",
+                choices=("bloch", "yeh-spectral", "landmarks", "landmarks-sub"),
+            ),
+        ),
+    ),
+    Method(
+        "layers-bands",
+        "layers",
+        "Every factor as its means over a few overlapping bands, multiplied band by band.",
+        "this project; spec/decisions/layers-bands.md",
+        is_truth=False,
+        glsl_function=None,
+        delta_e_mean=None,
+        parameters=(Parameter("bands", "How many bands.", 16, 3.0, 64.0),),
+    ),
 )
