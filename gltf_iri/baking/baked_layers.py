@@ -27,6 +27,8 @@ class BakedLayers:
         of a white sky, as `first` and `reflected` do of one direction.
     irradiance : (L, P, B') 2∫ T c dc, what of a white sky passes the layer.
     weights : (B', 3) the bands' weights, linear Rec.709, columns sum to 1; 3 × 3 unity and 0 for colours.
+    filled_in_s : seconds that filling took, now or when it was put into the cache.
+    is_cached : True where it was read from the cache.
     """
 
     plan: LayersPlan
@@ -38,3 +40,5 @@ class BakedLayers:
     irradiance: Float64
     weights: Float64
     white: str
+    filled_in_s: float = 0.0
+    is_cached: bool = False

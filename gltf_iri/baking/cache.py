@@ -13,6 +13,7 @@ import hashlib
 import json
 import math
 import os
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cache
@@ -24,10 +25,10 @@ from numpy.typing import NDArray
 
 from gltf_iri import __version__
 from gltf_iri.baking.baked import BakedTable
-from gltf_iri.planning.film_table import FilmTable
+from gltf_iri.planning.film_table import FilmTable, Texel
 from gltf_iri.whole_files import write_whole
 
-__all__ = ["TableCache", "user_folder"]
+__all__ = ["TableCache", "described", "user_folder"]
 
 _FORMAT: Final = 1
 _SUFFIX: Final = ".table"
@@ -61,22 +62,36 @@ class TableCache:
 
     def path(self, table: FilmTable, white: str) -> Path:
         """Return the file in which `table` under `white` lies, if it does."""
-        return self.folder / (hashlib.sha256(_description(table, white)).hexdigest() + _SUFFIX)
+        return self.path_of(_description(table, white))
+
+    def path_of(self, description: bytes) -> Path:
+        """Return the file of what `described` has said."""
+        return self.folder / (hashlib.sha256(description).hexdigest() + _SUFFIX)
 
     def read(self, table: FilmTable, white: str) -> BakedTable | None:
         """Return the filled table; None where it is not there. A file that is not sound is removed."""
-        path = self.path(table, white)
+        found = self.read_values(_description(table, white), table.texel, 3 * math.prod(table.shape))
+        if found is None:
+            return None
+        values, filled_in_s = found
+        return BakedTable(table, values.reshape(*table.shape, 3), white, filled_in_s, is_cached=True)
+
+    def read_values(
+        self, description: bytes, texel: Texel, count: int
+    ) -> tuple[NDArray[np.floating[Any]], float] | None:
+        """Return `count` numbers and the seconds that they took; None where they are not there."""
+        path = self.path_of(description)
         try:
             if not path.is_file():  # a pipe would keep its reader waiting
                 return None
             with path.open("rb") as stream:
-                content = stream.read(_bytes_max(table) + 1)
+                content = stream.read(count * np.dtype(texel).itemsize + _LINES_MAX + 1)
         except FileNotFoundError:
             return None
         except OSError as error:
             self._note(f"Tables are not read from {self.folder}: {error.strerror or error}.")
             return None
-        found = _decoded(content, table, white)
+        found = _decoded(content, description, texel, count)
         with suppress(OSError):
             if found is None:
                 path.unlink()
@@ -86,9 +101,20 @@ class TableCache:
 
     def write(self, baked: BakedTable) -> None:
         """Put a filled table there; where that fails the reason is noted."""
-        path = self.path(baked.table, baked.white)
+        values = baked.texels.reshape(-1)
+        self.write_values(
+            _description(baked.table, baked.white), baked.table.texel, values, baked.filled_in_s
+        )
+
+    def write_values(
+        self, description: bytes, texel: Texel, values: NDArray[np.floating[Any]], filled_in_s: float
+    ) -> None:
+        """Put numbers (n,) there, in the precision of `texel`; where that fails the reason is noted."""
+        path = self.path_of(description)
+        content = description + f"\n{filled_in_s:.6e}\n".encode()
+        content += values.astype(np.dtype(texel).newbyteorder("<")).tobytes()
         try:
-            write_whole({path: _encoded(baked)})
+            write_whole({path: hashlib.sha256(content).digest() + content})
             self._shrink(path)
         except OSError as error:
             self._note(f"Tables are not kept in {self.folder}: {error.strerror or error}.")
@@ -114,54 +140,49 @@ class TableCache:
             self.notes.append(sentence)
 
 
-def _encoded(baked: BakedTable) -> bytes:
-    texels = baked.texels.astype(np.dtype(baked.table.texel).newbyteorder("<"))
-    lines = _description(baked.table, baked.white) + f"\n{baked.filled_in_s:.6e}\n".encode()
-    content = lines + texels.tobytes()
-    return hashlib.sha256(content).digest() + content
+def described(said: Mapping[str, Any]) -> bytes:
+    """Return `said` as canonical JSON, with the state of the code: equal descriptions have equal bytes."""
+    whole = {"format": _FORMAT, "computed_by": _state_of_the_code(), **said}
+    return json.dumps(whole, sort_keys=True, separators=(",", ":")).encode()
 
 
-def _decoded(content: bytes, table: FilmTable, white: str) -> BakedTable | None:
+def _decoded(
+    content: bytes, description: bytes, texel: Texel, count: int
+) -> tuple[NDArray[np.floating[Any]], float] | None:
     """Return what a file holds; None where it is damaged, or not what it should be."""
     if hashlib.sha256(content[_DIGEST_BYTES:]).digest() != content[:_DIGEST_BYTES]:
         return None
     line, _, rest = content[_DIGEST_BYTES:].partition(b"\n")
     took, _, values = rest.partition(b"\n")
-    dtype = np.dtype(table.texel).newbyteorder("<")
-    if line != _description(table, white) or len(values) != 3 * math.prod(table.shape) * dtype.itemsize:
+    dtype = np.dtype(texel).newbyteorder("<")
+    if line != description or len(values) != count * dtype.itemsize:
         return None
     try:
         filled_in_s = float(took)
     except ValueError:
         return None
-    texels: NDArray[Any] = np.frombuffer(values, dtype).reshape(*table.shape, 3).astype(table.texel)
-    if not np.all(np.isfinite(texels)) or not 0.0 <= filled_in_s < math.inf:
+    numbers: NDArray[Any] = np.frombuffer(values, dtype).astype(texel)
+    if not np.all(np.isfinite(numbers)) or not 0.0 <= filled_in_s < math.inf:
         return None
-    return BakedTable(table, texels, white, filled_in_s, is_cached=True)
-
-
-def _bytes_max(table: FilmTable) -> int:
-    """Return more than a sound file of `table` has."""
-    return table.bytes + _LINES_MAX
+    return numbers, filled_in_s
 
 
 def _description(table: FilmTable, white: str) -> bytes:
-    """Return all that the texels depend on, as canonical JSON: equal tables have equal bytes."""
-    said = {
-        "format": _FORMAT,
-        "computed_by": _state_of_the_code(),
-        "white": white,
-        "lobe": table.lobe,
-        "film_ior": table.film_ior.hex(),
-        "thickness_nm": float(table.thickness_nm).hex(),
-        "base_f0": [float(f0).hex() for f0 in table.base_f0],
-        "axes": [
-            [axis.quantity, float(axis.span.low).hex(), float(axis.span.high).hex(), axis.nodes]
-            for axis in table.axes
-        ],
-        "texel": table.texel,
-    }
-    return json.dumps(said, sort_keys=True, separators=(",", ":")).encode()
+    """Return all that the texels depend on."""
+    return described(
+        {
+            "white": white,
+            "lobe": table.lobe,
+            "film_ior": table.film_ior.hex(),
+            "thickness_nm": float(table.thickness_nm).hex(),
+            "base_f0": [float(f0).hex() for f0 in table.base_f0],
+            "axes": [
+                [axis.quantity, float(axis.span.low).hex(), float(axis.span.high).hex(), axis.nodes]
+                for axis in table.axes
+            ],
+            "texel": table.texel,
+        }
+    )
 
 
 @cache

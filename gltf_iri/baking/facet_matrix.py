@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from gltf_iri.optics.facet_mean import facet_cosines
 from gltf_iri.optics.microfacet import N_DOT_V_MIN, alpha_ggx
 
-__all__ = ["chebyshev_cosines", "facet_moments", "terms_for", "to_coefficients"]
+__all__ = ["chebyshev_cosines", "chebyshev_moments", "facet_moments", "terms_for", "to_coefficients"]
 
 Float64 = NDArray[np.float64]
 
@@ -78,13 +78,20 @@ def _moments(n_dot_v: Float64, roughness: Float64, terms: int, max_error: float)
             np.maximum(cosine[part], N_DOT_V_MIN), alpha_ggx(rough[part]), slopes=slopes, turns=turns
         )
         weights /= weights.sum(axis=-1, keepdims=True)
-        # T_{j+1} = 2x T_j − T_{j−1}, row by row: all T_j at once would leave the cache.
-        x = 2.0 * seen - 1.0
-        before, now = np.ones_like(x), x
-        for j in range(terms):
-            moments[part, j] = np.einsum("rq,rq->r", weights, before)
-            before, now = now, 2.0 * x * now - before
+        moments[part] = chebyshev_moments(seen, weights, terms)
     return np.asarray(moments, np.float64).reshape(*n_dot_v.shape, terms)
+
+
+def chebyshev_moments(cosines: Float64, weights: Float64, terms: int) -> Float64:
+    """Return Σ weights T_j(2 cosine − 1), (r, terms), of points (r, q) in each row."""
+    # T_{j+1} = 2x T_j − T_{j−1}, row by row: all T_j at once would leave the cache.
+    x = 2.0 * cosines - 1.0
+    before, now = np.ones_like(x), x
+    moments = np.zeros((len(x), terms))
+    for j in range(terms):
+        moments[:, j] = np.einsum("rq,rq->r", weights, before)
+        before, now = now, 2.0 * x * now - before
+    return moments
 
 
 def terms_for(reflectance: Callable[[Float64], Float64], max_error: float) -> int:

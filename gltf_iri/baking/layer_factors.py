@@ -1,0 +1,125 @@
+"""What one layer reflects, lets pass and sends of a white sky, over the period and the cosine.
+
+All are linear in the reflectance. So spectra are asked for at the tables' own cosines, and at Chebyshev
+points, of which matrices make the means over facets: by the filter F_α and over the lobe (`facet_matrix`).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.polynomial.chebyshev import chebvander
+from numpy.typing import NDArray
+
+from gltf_iri.baking.facet_matrix import chebyshev_cosines, chebyshev_moments, terms_for, to_coefficients
+from gltf_iri.baking.layer_spectra import Weighing, layer_spectra
+from gltf_iri.optics.layer_lobe import layer_lobe
+from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN
+from gltf_iri.optics.quadrature import gauss_unit
+from gltf_iri.optics.rough_bragg import filter_nodes
+from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
+
+__all__ = ["LayerFactors", "SkyFactors", "layer_factors", "sky_factors"]
+
+Float64 = NDArray[np.float64]
+
+_VALUES_AT_ONCE: Final = 1 << 22  # bounds memory, and how long an interrupt waits
+_ROWS_AT_ONCE: Final = 64  # of 768 points of a lobe: their numbers stay in a core's cache
+
+# What means over facets may err by, about: half precision rounds by more.
+_MAX_ERROR: Final = 2e-5
+
+_SKY_NODES: Final = 48
+
+
+@dataclass(frozen=True, slots=True)
+class LayerFactors:
+    """Of one layer, at p texels and c cosines.
+
+    reflected, transmitted : (p, c, B) as a `Weighing` keeps them; colour : (p, c, 3) of what is reflected.
+    series : (p, terms, B + 3), Chebyshev coefficients over the cosine of reflected and colour.
+    """
+
+    reflected: Float64
+    colour: Float64
+    transmitted: Float64
+    series: Float64
+
+
+@dataclass(frozen=True, slots=True)
+class SkyFactors:
+    """What a layer makes of a white sky, as `BakedLayers` has it.
+
+    albedo : (p, c, B); colour : (p, c, 3) of it; irradiance : (p, B).
+    """
+
+    albedo: Float64
+    colour: Float64
+    irradiance: Float64
+
+
+def layer_factors(
+    plan: LayersPlan, layer: PlannedLayer, texel: Float64, cosines: Float64, weighing: Weighing
+) -> LayerFactors:
+    """Return the factors of `layer` at the texels (p,) and the cosines (c,) in the host."""
+    both = np.concatenate([weighing.shares, weighing.rule.weights], axis=1)
+
+    def kept(at: Float64, texels: Float64) -> Float64:
+        """Return (texels, at, B + 3)."""
+        step = max(1, _VALUES_AT_ONCE // (len(at) * len(both)))
+        parts = [
+            layer_spectra(plan, layer, texels[i : i + step, None], at, weighing.rule) @ both
+            for i in range(0, len(texels), step)
+        ]
+        return np.concatenate(parts)
+
+    bands = weighing.shares.shape[1]
+    direct = kept(cosines, texel)
+    hardest = texel[[0, len(texel) // 2, -1]]
+    terms = terms_for(lambda at: kept(at, hardest), _MAX_ERROR)
+    values = kept(chebyshev_cosines(terms), texel)
+    series = np.einsum("jk,pkb->pjb", to_coefficients(terms), values)
+    reflected = direct[..., :bands]
+    if layer.alpha <= ALPHA_MIN:
+        transmitted = 1.0 - reflected
+    else:
+        transmitted = _passed(cosines, layer.alpha, series[..., :bands])
+    if not weighing.is_colour:
+        # Series swing about what they stand for; means over bands are shares.
+        transmitted = np.clip(transmitted, 0.0, 1.0)
+    return LayerFactors(reflected, direct[..., bands:], transmitted, series)
+
+
+def sky_factors(layer: PlannedLayer, factors: LayerFactors, cosines: Float64) -> SkyFactors:
+    """Return what the layer of `factors` makes of a white sky at the cosines (c,)."""
+    series = factors.series
+    bands = factors.reflected.shape[-1]
+    moments = np.concatenate(
+        [
+            chebyshev_moments(
+                *layer_lobe(np.maximum(cosines[i : i + _ROWS_AT_ONCE], N_DOT_V_MIN), layer.alpha),
+                series.shape[1],
+            )
+            for i in range(0, len(cosines), _ROWS_AT_ONCE)
+        ]
+    )
+    albedo = np.einsum("cj,pjb->pcb", moments, series)
+    nodes, weights = gauss_unit(_SKY_NODES)
+    passed = _passed(nodes, layer.alpha, series[..., :bands])
+    return SkyFactors(
+        albedo[..., :bands],
+        albedo[..., bands:],
+        np.asarray(np.einsum("c,pcb->pb", 2.0 * nodes * weights, passed)),
+    )
+
+
+def _passed(cosines: Float64, alpha: float, series: Float64) -> Float64:
+    """Return (p, c, B), T = ∫ (1 − R) F_α dθ_d of a series (p, terms, B) of R; of smooth layers 1 − R."""
+    terms = series.shape[1]
+    if alpha <= ALPHA_MIN:
+        return np.asarray(1.0 - np.einsum("cj,pjb->pcb", chebvander(2.0 * cosines - 1.0, terms - 1), series))
+    met, weights = filter_nodes(cosines, alpha)
+    moments = chebyshev_moments(met, weights, terms)
+    return np.asarray(moments[:, :1] - np.einsum("cj,pjb->pcb", moments, series))

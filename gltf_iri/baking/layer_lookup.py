@@ -1,0 +1,104 @@
+"""A stack's colours out of its tables: factors linear between texels, multiplied band by band, as GLSL does.
+
+Twin: shaders/lighting/layer_tables.glsl. Along an axis of n texels from 0 to 1 a coordinate t lies at texel
+t·(n − 1), so that the first and the last centre stand for its ends (OpenGL 4.6, 8.14.3, with
+s = (t·(n − 1) + ½)/n and CLAMP_TO_EDGE).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from gltf_iri.baking.baked_layers import BakedLayers
+
+__all__ = ["ImageColours", "LayerLookup"]
+
+Float64 = NDArray[np.float64]
+Floats = NDArray[np.floating[Any]]
+
+
+@dataclass(frozen=True, slots=True)
+class ImageColours:
+    """What a stack makes of image light; colours (..., 3) in linear Rec.709, white 1.
+
+    layers : of each layer's own prefiltered radiance, outermost first.
+    diffuse : of the irradiance, above a diffuse base; metal : of the radiance of a metal base's lobe.
+    """
+
+    layers: tuple[Float64, ...]
+    diffuse: Float64
+    metal: Float64
+
+
+class LayerLookup:
+    """`LayerColours` of filled tables where the texture of periods is `texel` (...), which broadcasts."""
+
+    def __init__(self, baked: BakedLayers, texel: ArrayLike = 1.0) -> None:
+        self._baked = baked
+        span = baked.plan.texel
+        value, width = np.asarray(texel, np.float64), span.high - span.low
+        self._period = np.clip((value - span.low) / width, 0.0, 1.0) if width > 0.0 else 0.0 * value
+
+    def reflected(self, layer: int, cos_h: ArrayLike, cos_i: ArrayLike, cos_o: ArrayLike) -> Float64:
+        """Return (..., 3), the colour of R_layer(h) Π_{k<layer} T_k(i) T_k(o); cosines in the host."""
+        shape = np.broadcast_shapes(*(np.shape(x) for x in (self._period, cos_h, cos_i, cos_o)))
+        if layer == 0:
+            return np.broadcast_to(self._at(self._baked.first, cos_h)[..., :3], (*shape, 3))
+        factors = self._at(self._baked.reflected[layer], cos_h)
+        return np.broadcast_to(
+            (factors * self._through(layer, cos_i, cos_o)) @ self._baked.weights, (*shape, 3)
+        )
+
+    def passed(self, cos_i: ArrayLike, cos_o: ArrayLike) -> Float64:
+        """Return (..., 3), the colour of Π_k T_k(i) T_k(o) over all layers."""
+        return np.asarray(self._through(len(self._baked.plan.layers), cos_i, cos_o) @ self._baked.weights)
+
+    def image(self, n_dot_v: ArrayLike) -> ImageColours:
+        """Return what image light becomes, seen at the cosine `n_dot_v` in the host.
+
+        Each layer's light comes and goes through those above at N·V; over a diffuse base light comes from
+        all around.
+        """
+        baked, count = self._baked, len(self._baked.plan.layers)
+        layers = [self._at(baked.first_albedo, n_dot_v)[..., :3]]
+        for layer in range(1, count):
+            through = self._through(layer, n_dot_v, n_dot_v)
+            layers.append((self._at(baked.albedo[layer], n_dot_v) * through) @ baked.weights)
+        sky = np.ones(1)
+        for layer in range(count):
+            # The irradiance has one axis, that of the texture.
+            passed = self._at(baked.irradiance[layer, :, None, :], 0.0)
+            sky = sky * self._at(baked.transmitted[layer], n_dot_v) * passed
+        metal = self._through(count, n_dot_v, n_dot_v)
+        return ImageColours(tuple(layers), np.asarray(sky @ baked.weights), np.asarray(metal @ baked.weights))
+
+    def _through(self, layers: int, cos_i: ArrayLike, cos_o: ArrayLike) -> Float64:
+        """Return Π_{k<layers} T_k(i) T_k(o), (..., B')."""
+        product = np.ones(self._baked.weights.shape[0])
+        for transmitted in self._baked.transmitted[:layers]:
+            product = product * self._at(transmitted, cos_i) * self._at(transmitted, cos_o)
+        return product
+
+    def _at(self, texels: Floats, cosine: ArrayLike) -> Float64:
+        """Return (..., n) of texels (P, C, n), bilinear."""
+        periods, cosines, _ = texels.shape
+        row, down = _cell(self._period, periods)
+        column, right = _cell(np.asarray(cosine, np.float64), cosines)
+        below, beside = np.minimum(row + 1, periods - 1), np.minimum(column + 1, cosines - 1)
+        upper = (1.0 - right) * texels[row, column] + right * texels[row, beside]
+        if periods == 1:
+            return np.asarray(upper, np.float64)
+        lower = (1.0 - right) * texels[below, column] + right * texels[below, beside]
+        return np.asarray((1.0 - down) * upper + down * lower)
+
+
+def _cell(coordinate: Float64, nodes: int) -> tuple[NDArray[np.intp], Float64]:
+    """Return the texel before each coordinate in [0, 1] and how far on it lies (..., 1), in texels."""
+    place = np.clip(coordinate, 0.0, 1.0) * (nodes - 1)
+    # NaN, which no index can be, stays in the weight.
+    cell = np.fmin(np.fmax(np.floor(place), 0.0), max(nodes - 2, 0)).astype(np.intp)
+    return cell, np.asarray(place - cell)[..., None]
