@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -21,7 +22,7 @@ class LayerRow:
 
     ns_per_eval : a median, taken in the same rounds as those of all rows of its workload and backend.
     speedup : the time of `speedup_over` on the same backend over this one's.
-    printed : the paper's own figure for `speedup` or `efficiency`, None where it has none.
+    printed : the paper's own figures by name: "speedup", or "time_s", "smape" and "efficiency".
     smape : mean of |a − b| / (½(|a| + |b|)) over pixels and channels; efficiency : time of the ground truth
         over time × SMAPE. Fourneau et al. 2024, Table 2; None where a row is no picture.
     """
@@ -39,7 +40,7 @@ class LayerRow:
     speedup_over: str = ""
     smape: float | None = None
     efficiency: float | None = None
-    printed: float | None = None
+    printed: Mapping[str, float] = field(default_factory=dict)
     remark: str = ""
 
     def to_json(self) -> dict[str, Any]:

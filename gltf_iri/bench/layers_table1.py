@@ -227,9 +227,9 @@ def _with_speedups(rows: Iterator[LayerRow]) -> Iterator[LayerRow]:
         )
 
 
-def _printed(row: LayerRow) -> float | None:
+def _printed(row: LayerRow) -> dict[str, float]:
     if row.method not in ("landmarks", "landmarks-sub"):
-        return None
+        return {}
     period_nm = next(each for each in PERIODS_NM if row.workload.startswith(f"table 1: {each:g} nm"))
     s = row.parameters.get("subdivisions", 1)
-    return PRINTED[period_nm][int(s) - 1]
+    return {"speedup": PRINTED[period_nm][int(s) - 1]}

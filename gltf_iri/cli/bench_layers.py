@@ -22,6 +22,7 @@ def measure_layers(rounds: int | None) -> tuple[list[LayerRow], Callable[[], Non
     with one_thread():
         # Imported here: what they load reads the number of threads when it is loaded.
         from gltf_iri.bench.layers_table1 import ALPHAS, PERIODS_NM, TABLE1_ROUNDS, measure_table1
+        from gltf_iri.bench.layers_table2 import CONFIGURATIONS, TABLE2_ROUNDS, measure_table2
         from gltf_iri.rendering.context import create_context
 
         context: Any = None
@@ -35,7 +36,14 @@ def measure_layers(rounds: int | None) -> tuple[list[LayerRow], Callable[[], Non
         finally:
             if context is not None:
                 context.release()
-    return first, lambda: _print_first(first)
+        with progress("table 2", len(CONFIGURATIONS)) as advance:
+            second = measure_table2(rounds=rounds or TABLE2_ROUNDS, after_configuration=advance)
+
+    def tables() -> None:
+        _print_first(first)
+        _print_second(second)
+
+    return [*first, *second], tables
 
 
 def _print_first(rows: Sequence[LayerRow]) -> None:
@@ -54,7 +62,7 @@ def _print_first(rows: Sequence[LayerRow]) -> None:
                     row.backend,
                     row.label,
                     *(figure(each.speedup, ",.1f") for each in beside),
-                    figure(row.printed, ".1f"),
+                    figure(row.printed.get("speedup"), ".1f"),
                     f"{row.ns_per_eval:,.0f}",
                     figure(row.delta_e_mean, ".2f"),
                     figure(row.delta_e_p95, ".2f"),
@@ -62,3 +70,23 @@ def _print_first(rows: Sequence[LayerRow]) -> None:
             )
     title = f"One rough layer: times faster than {rows[0].label}, D65, CIEDE2000; ns and ΔE at the first α"
     print_table((*columns, "ΔE mean", "ΔE p95"), cells, title=title)
+
+
+def _print_second(rows: Sequence[LayerRow]) -> None:
+    columns = ("configuration", "method", "ns a sample", "SMAPE", "Eff.", "printed s", "SMAPE", "Eff.")
+    cells = [
+        (
+            row.workload,
+            row.label,
+            f"{row.ns_per_eval:,.0f}",
+            figure(row.smape, ".3f"),
+            figure(row.efficiency, ",.0f"),
+            figure(row.printed.get("time_s"), "g"),
+            figure(row.printed.get("smape"), ".3f"),
+            figure(row.printed.get("efficiency"), ",.0f"),
+            row.remark,
+        )
+        for row in rows
+    ]
+    title = "A sphere under layers against the simulation of all reflections; numpy, one thread"
+    print_table((*columns, ""), cells, title=title)

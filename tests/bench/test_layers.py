@@ -19,6 +19,16 @@ from gltf_iri.bench.layers_table1 import (
     rough_layer,
     table1_name,
 )
+from gltf_iri.bench.layers_table2 import (
+    CONFIGURATIONS,
+    LAYER_A,
+    LAYER_B,
+    PRINTED_2,
+    WAYS_2,
+    Costs,
+    measure_table2,
+    smape,
+)
 from gltf_iri.optics.rough_bragg import facet_weight
 from gltf_iri.rendering import timed_calls
 from gltf_iri.rendering.context import create_context
@@ -45,7 +55,7 @@ def test_every_printed_speedup_has_its_row_on_every_backend(first: list[LayerRow
     for period_nm in PERIODS_NM:
         rows = [row for row in first if row.workload == table1_name(period_nm, ALPHA)]
         for backend in {row.backend for row in first}:
-            printed = [row.printed for row in rows if row.backend == backend and row.printed]
+            printed = [row.printed["speedup"] for row in rows if row.backend == backend and row.printed]
             assert tuple(printed) == PRINTED[period_nm]
             assert len([row for row in rows if row.backend == backend]) == len(WAYS)
 
@@ -92,3 +102,52 @@ def test_the_layer_is_the_printed_one() -> None:
     mirror = rough_layer(500.0, 0.1, 8).mirror
     assert (float(mirror.n1.real), float(mirror.n2.real)) == (1.0, 1.5)
     assert float(mirror.d1_nm) == float(mirror.d2_nm) == 250.0
+
+
+@pytest.fixture(scope="module")
+def second() -> list[LayerRow]:
+    once = pytest.MonkeyPatch()
+    once.setattr(timing, "_SHORTEST_NS", 0)
+    try:
+        return measure_table2(Costs(side=6, samples=8, truth_samples=8, degree=16, cos_nodes=32), 1)
+    finally:
+        once.undo()
+
+
+def test_every_printed_efficiency_has_its_row(second: list[LayerRow]) -> None:
+    for place, name in enumerate(CONFIGURATIONS):
+        rows = {row.method: row for row in second if row.workload == f"table 2: {name}"}
+        assert set(rows) >= set(WAYS_2)
+        for method, printed in PRINTED_2.items():
+            assert tuple(rows[method].printed.values()) == printed[place]
+
+
+def test_efficiency_is_that_of_times_and_errors(second: list[LayerRow]) -> None:
+    for truth in (row for row in second if row.smape == 0.0):
+        assert set(json.loads(json.dumps(truth.to_json()))) >= CONTRACT
+        for row in second:
+            if row.workload == truth.workload and row.smape:
+                spent = row.ns_per_eval * row.parameters["samples"] * row.smape
+                whole = truth.ns_per_eval * truth.parameters["samples"]
+                assert row.efficiency == pytest.approx(whole / spent)
+
+
+def test_the_models_ways_differ_by_less_than_their_noise(second: list[LayerRow]) -> None:
+    for name in CONFIGURATIONS:
+        found = {row.method: row.smape for row in second if row.workload == f"table 2: {name}"}
+        # They look into the same directions: what is left is what tables and bands make of the spectra.
+        for ours in ("layers-single-table", "layers-bands"):
+            assert found[ours] == pytest.approx(found["layers-single"], abs=0.05)
+
+
+def test_layers_are_the_printed_ones() -> None:
+    for layer, thickness_nm, alpha in ((LAYER_A, 250.0, 0.1), (LAYER_B, 494.0, 0.05)):
+        assert (float(layer.n1), float(layer.n2), int(layer.cells)) == (1.0, 1.5, 10)
+        assert float(layer.d1_nm) == float(layer.d2_nm) == thickness_nm
+        assert float(layer.alpha) == alpha
+    assert CONFIGURATIONS["A over B on ρ 0.5"].base.diffuse.tolist() == [0.5] * 3
+
+
+def test_smape_is_that_of_the_paper() -> None:
+    assert smape(np.array([1.0, 0.0, 3.0]), np.array([3.0, 0.0, 3.0])) == pytest.approx(1.0 / 3.0)
+    assert smape(np.array([1.0]), np.array([0.0])) == pytest.approx(2.0)
