@@ -19,6 +19,7 @@ if typing.TYPE_CHECKING:
     from numpy.typing import ArrayLike
 
     from gltf_iri.baking.baked import BakedTable
+    from gltf_iri.baking.baked_layers import BakedLayers
     from gltf_iri.colour.spaces import Light
     from gltf_iri.evaluation.film import Base, Dispersion, Evaluation
     from gltf_iri.material.material import Material
@@ -211,10 +212,23 @@ def render(
         pixels, is_lit = size[0] * size[1], light is not None and bool(light.radiance.any())
         plans = plans_within(model, shown, budget, size_pixels=pixels, has_image_light=is_lit)
         tables = bake_plans(plans)
+    layer_tables: Mapping[int, BakedLayers] = {}
+    if any(plan.layers is not None for plan in plans):
+        from gltf_iri.baking.layer_fill import bake_layer_plans
+
+        layer_tables = bake_layer_plans(plans)
     context = create_context()
     try:
         return Renderer(context).render(
-            model, shown, plans, seen_from, light, size=size, samples=samples, tables=tables
+            model,
+            shown,
+            plans,
+            seen_from,
+            light,
+            size=size,
+            samples=samples,
+            tables=tables,
+            layer_tables=layer_tables,
         )
     finally:
         context.release()

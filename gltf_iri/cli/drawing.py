@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from gltf_iri.baking.baked import BakedTable
+    from gltf_iri.baking.baked_layers import BakedLayers
     from gltf_iri.planning.material_plan import MaterialPlan
     from gltf_iri.planning.reach import Lobe
     from gltf_iri.rendering.frame import Frame
@@ -39,6 +40,7 @@ def opengl(
     environment: Environment | None,
     size: tuple[int, int],
     tables: Mapping[int, Mapping[Lobe, BakedTable]],
+    layer_tables: Mapping[int, BakedLayers],
 ) -> Brush:
     """Return OpenGL, one renderer for all pictures; MissingCapabilityError where there is none."""
     from gltf_iri.rendering.context import create_context
@@ -48,7 +50,9 @@ def opengl(
     renderer = Renderer(context)
 
     def draw(view: Camera, advance: Callable[[], None]) -> Frame:
-        frame = renderer.render(model, scene, plans, view, environment, size=size, tables=tables)
+        frame = renderer.render(
+            model, scene, plans, view, environment, size=size, tables=tables, layer_tables=layer_tables
+        )
         advance()
         return frame
 

@@ -19,6 +19,7 @@ from gltf_iri.cli.budget import (
 )
 from gltf_iri.cli.common import file_argument, json_option, note, print_json, progress
 from gltf_iri.cli.drawing import Drawn, opengl, rays
+from gltf_iri.cli.layers import baked_layers, layers_json, print_layers
 from gltf_iri.cli.picture_options import (
     SIZE,
     choose_exposure,
@@ -64,7 +65,9 @@ _TONE_MAPS = ("none", "neutral", "aces")
     metavar="N",
     help="N pictures once around the scene: an animated WebP, or OUT-000.png and so on.",
 )
-@click.option("--method", metavar="NAME", help="Film method; the plan chooses when left out.")
+@click.option(
+    "--method", metavar="NAME", help="Method for films, or for layers; the plan chooses when left out."
+)
 @budget_option
 @reference_options("Cast rays on the CPU instead: slow, without OpenGL, through the pixels' centres.")
 @json_option
@@ -116,9 +119,10 @@ def command(
         views = orbit_scene(scene, aspect=max(size[0], 1) / max(size[1], 1), count=orbit)
     plans = plan_scene(model, scene, method, budget, size=size, environment=environment)
     tables = baked_tables(plans)
+    layer_tables = {} if reference else baked_layers(plans)
     exposure_ev = choose_exposure(exposure, scene, environment, default="0" if is_linear else "auto")
     subject = (model, scene, plans, environment, size)
-    brush = rays(*subject, counts) if reference else opengl(*subject, tables)
+    brush = rays(*subject, counts) if reference else opengl(*subject, tables, layer_tables)
     with ExitStack() as put_away, progress("Drawing", len(views) * brush.steps + 1) as advance:
         put_away.callback(brush.release)
         drawn = Drawn(brush.draw)
@@ -150,6 +154,7 @@ def command(
         "method": next((plan.method for plan in used if plan.method is not None), None),
         "budget": budget,
         "ways": ways_json(used, tables),
+        "layers": layers_json(used, layer_tables),
         "environment": environment.name if environment else None,
         "exposure": exposure_ev,
         "camera": views[0].name,
@@ -166,6 +171,7 @@ def command(
     for text in (*notes, *_not_drawn(used)):
         note(text)
     print_ways(used, tables)
+    print_layers(used, layer_tables)
     click.echo(_summary(told, count=len(views)))
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from gltf_iri.baking.layer_fill import bake_layer_plans
 from gltf_iri.comparison.figures import TONEMAP
 from gltf_iri.comparison.result import Comparison
 from gltf_iri.comparison.run import compare
@@ -90,7 +91,8 @@ def make_entry(renderer: Renderer, file: Path, setup: Setup) -> Entry:
             exposure = automatic_exposure(scene, setup.environment)
         entry = Entry(file, exposure=exposure, plans=tuple(p for p in plans if p.index in used))
         arguments = (model, scene, plans, choose_camera(scene, None, setup.size), setup.environment)
-        frame = renderer.render(*arguments, size=setup.size)
+        layer_tables = bake_layer_plans(entry.plans)
+        frame = renderer.render(*arguments, size=setup.size, layer_tables=layer_tables)
         entry = replace(entry, picture=webp_bytes(display_pixels(frame.rgba, exposure, TONEMAP)))
         comparison = compare(renderer, *arguments, size=setup.size, exposure=exposure)
         notes = dict.fromkeys((*comparison.notes, *frame.notes))

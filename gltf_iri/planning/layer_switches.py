@@ -8,11 +8,10 @@ from typing import Final
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.method import find_method
 
 __all__ = ["LAYER_SWITCHES", "is_whole", "layer_defines", "quads"]
 
-# Colours of the layers come out of tables, and there as colours, not as bands of wavelengths.
+# Colours of the layers come out of tables, in place of layers-single; and there as colours, not as bands.
 _TABLES: Final = "BRAGG_TABLES"
 _COLOURS: Final = "BRAGG_COLOURS"
 # More than one layer: light passes those above on its way.
@@ -46,9 +45,7 @@ def layer_defines(plan: MaterialPlan) -> Iterator[str]:
     if layers is None:
         return
     yield f"BRAGG_LAYERS {len(layers.layers)}"
-    if layers.tables is None:
-        yield find_method(layers.method).define
-    else:
+    if layers.tables is not None:
         yield _TABLES
         yield f"BRAGG_QUADS {quads(layers)}"
         if layers.tables.is_colour:

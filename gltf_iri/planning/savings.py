@@ -8,7 +8,7 @@ from typing import Final
 from gltf_iri.planning.costs import Costs
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.method import DEFAULT_METHOD, find_method
+from gltf_iri.planning.method import DEFAULT_METHOD, find_method, method_names
 from gltf_iri.planning.reach import Lobe
 from gltf_iri.planning.way import ONE_CHANNEL, Way
 
@@ -53,7 +53,8 @@ def _drawn_as(plan: MaterialPlan, method: str | None) -> Way:
     """Return the way by which the film is drawn, or would be."""
     if plan.way is not None and plan.way.method is not None:
         return plan.way
-    found = find_method(plan.method or method or DEFAULT_METHOD, "film")
+    asked = method if method in method_names("film") else None  # one for layers says nothing of films
+    found = find_method(plan.method or asked or DEFAULT_METHOD, "film")
     return Way(found.name, {parameter.name: parameter.default for parameter in found.parameters})
 
 

@@ -7,7 +7,7 @@ weights of eight bits, so that a factor between two nodes is off by up to 1/512 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,21 +17,31 @@ from gltf_iri.errors import MissingCapabilityError, UsageError
 from gltf_iri.optics.layer_stack import coating_transmittance
 from gltf_iri.optics.quadrature import gauss_unit
 from gltf_iri.planning.layer_plan import LayersPlan
+from gltf_iri.planning.layers import default_tables
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.method import find_method
+from gltf_iri.planning.method import method_names
+from gltf_iri.planning.reach import Span
 from gltf_iri.rendering.uniforms import Sampled
 
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["LayerTableStore", "checked_layers", "direct_tables", "layer_table_slices"]
+__all__ = ["LayerTableStore", "check_layers_method", "checked_layers", "direct_tables", "layer_table_slices"]
 __all__ += ["layer_uniforms"]
 
 Floats = NDArray[np.floating[Any]]
 
-_SAMPLER = "u_bragg_tables"
-# What is drawn without tables.
-_DIRECT = "layers-single"
+_SAMPLER: Final = "u_bragg_tables"
+# What is drawn without tables, and what shaders/optics/layers_single.glsl samples for it.
+_DIRECT: Final = "layers-single"
+_DIRECT_TABLES: Final = ("spectral_rule",)
+
+
+def check_layers_method(name: str) -> None:
+    """Raise UsageError where layers are drawn by the method `name` neither directly nor from tables."""
+    if name != _DIRECT and default_tables(name, Span.at(1.0)) is None:
+        drawable = [m for m in method_names("layers") if m == _DIRECT or default_tables(m, Span.at(1.0))]
+        raise UsageError(f"Layers cannot be drawn by '{name}'; methods that can are: {', '.join(drawable)}.")
 
 
 def checked_layers(
@@ -47,11 +57,7 @@ def checked_layers(
     if plan.layers is None:
         return None
     if plan.layers.tables is None:
-        if plan.layers.method != _DIRECT:
-            raise UsageError(
-                f"Of layers only '{_DIRECT}' is drawn without tables, and the plan of material {plan.index} "
-                f"names '{plan.layers.method}' without; plan it with plan_layers."
-            )
+        check_layers_method(plan.layers.method)
         return None
     baked = layer_tables.get(plan.index)
     if baked is None or baked.plan != plan.layers or baked.white != white:
@@ -186,6 +192,4 @@ def _texture(context: moderngl.Context, baked: BakedLayers) -> Sampled:
 
 def direct_tables(plan: MaterialPlan) -> tuple[str, ...]:
     """Return the names of the optics tables that the layers of `plan` are computed from directly."""
-    if plan.layers is None or plan.layers.tables is not None:
-        return ()
-    return find_method(plan.layers.method).glsl_tables
+    return () if plan.layers is None or plan.layers.tables is not None else _DIRECT_TABLES

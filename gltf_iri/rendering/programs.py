@@ -7,8 +7,9 @@ from typing import TYPE_CHECKING, Final
 
 from gltf_iri.errors import MissingCapabilityError, UsageError
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.planning.method import METHODS, Method, ParameterValue, find_method
+from gltf_iri.planning.method import METHODS, Method, ParameterValue, find_method, method_names
 from gltf_iri.planning.permutation import film_lobes
+from gltf_iri.rendering.layer_tables import check_layers_method
 from gltf_iri.rendering.source import ShaderSource, assemble, build_program
 
 if TYPE_CHECKING:
@@ -28,8 +29,10 @@ def surface_sources(defines: tuple[str, ...]) -> tuple[ShaderSource, ShaderSourc
 
 
 def check_method(name: str | None) -> None:
-    """Raise UsageError where the film method `name` has no GLSL twin; None stands for no film."""
-    if name is not None and find_method(name, "film").glsl_function is None:
+    """Raise UsageError where neither films nor layers are drawn by the method `name`; None is no method."""
+    if name is not None and name in method_names("layers"):
+        check_layers_method(name)
+    elif name is not None and find_method(name, "film").glsl_function is None:
         drawable = ", ".join(m.name for m in METHODS.values() if m.glsl_function and m.domain == "film")
         raise UsageError(f"The method '{name}' cannot be drawn; methods that can are: {drawable}.")
 

@@ -25,6 +25,7 @@ from gltf_iri.rendering.film_tables import FilmTableStore, checked_tables
 from gltf_iri.rendering.frame import BRAGG_INPUT_TARGETS, INPUT_TARGETS, LAYER_INPUT_TARGETS, Frame
 from gltf_iri.rendering.geometry import GeometryStore
 from gltf_iri.rendering.image_light import ImageLightStore
+from gltf_iri.rendering.layer_loops import check_loops
 from gltf_iri.rendering.layer_tables import LayerTableStore, checked_layers
 from gltf_iri.rendering.optics_tables import OpticsTableStore
 from gltf_iri.rendering.passes import PassTimes
@@ -114,11 +115,13 @@ class Renderer:
             samples = 0
         check_size(self.context, size, samples)
         plans = complete_plans(plans, scene)
+        surroundings = plan_scene_effects(scene, environment)
+        has_image_light = Effect.IMAGE_LIGHT in surroundings
         for plan in plans:
+            check_loops(plan, renderer_name(self.context), len(scene.lights), has_image_light=has_image_light)
             computed_method(plan)
             checked_tables(plan, tables, white)
             checked_layers(plan, layer_tables, white)
-        surroundings = plan_scene_effects(scene, environment)
         geometry = GeometryStore(self.context)
         textures = TextureStore(
             self.context, model.document, float_textures=float_textures, base_level_only=sharp_textures
