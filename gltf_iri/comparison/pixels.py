@@ -70,6 +70,8 @@ def surface_of_pixels(inputs: ShadingInputs, mask: Mask, camera: Camera) -> Surf
         # Filtering may round below 0.
         iridescence_thickness_nm=np.maximum(take("iridescence_thickness_nm"), 0.0),
         iridescence_thickness_std_nm=take("iridescence_thickness_std_nm"),
+        bragg_factor=take("bragg_factor"),
+        bragg_period_texel=take("bragg_period_texel"),
         anisotropy_strength=take("anisotropy_strength"),
         anisotropy_tangent=take("anisotropy_tangent"),
         transmission=take("transmission"),

@@ -1,4 +1,4 @@
-"""The film of one material at many points, by any method, and what the method left undefined there."""
+"""The film or the layers of one material at many points, by any method, and what it left undefined."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from gltf_iri.evaluation.film import Evaluation, Film, base_from_f0
 from gltf_iri.planning.reach import Lobe
+from gltf_iri.reference.layers_on import LayersMethod
 from gltf_iri.reference.surface import Surface
 
 __all__ = ["Facets", "FilmMethod", "FilmOn", "Sight", "in_one_direction"]
@@ -62,6 +63,7 @@ class FilmOn:
 
     film_ior : not read where the surface has no film (iridescence factor 0).
     method : maps a `Film` and how it is seen to its reflectance colours.
+    layers : the colours of the Bragg layers; None where the plan has none.
     white : the method's own; "" until a film was evaluated.
     undefined : for each undefined case of the method's text that occurred, the points (n,) it touched.
     """
@@ -69,8 +71,13 @@ class FilmOn:
     surface: Surface
     film_ior: float
     method: FilmMethod
+    layers: LayersMethod | None = None
     white: str = ""
     undefined: dict[str, Mask] = field(default_factory=dict)
+
+    def at(self, surface: Surface) -> FilmOn:
+        """Return the same on other points."""
+        return FilmOn(surface, self.film_ior, self.method, self.layers)
 
     @property
     def has_film(self) -> Mask:

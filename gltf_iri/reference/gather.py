@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.material.anisotropy import Anisotropy
+from gltf_iri.material.bragg import Bragg
 from gltf_iri.material.clearcoat import Clearcoat
 from gltf_iri.material.emissive_strength import EmissiveStrength
 from gltf_iri.material.ior import Ior
@@ -49,6 +50,7 @@ def gather_surface(stage: Stage, slot: int, points: Points, view: Float64) -> Su
         _specular(reader, m) if is_dielectric else (reader.fill(1.0), reader.zero3)
     )
     iridescence, thickness_nm = _iridescence(reader, m.iridescence)
+    bragg, period_texel = _bragg(reader, m.bragg)
     strength, tangent = _anisotropy(reader, m.anisotropy, normal)
     transmission, depth_m = _transmission(reader, m)
     sheen_color, sheen_roughness = _sheen(reader, m.sheen)
@@ -70,6 +72,8 @@ def gather_surface(stage: Stage, slot: int, points: Points, view: Float64) -> Su
         iridescence_factor=iridescence,
         iridescence_thickness_nm=thickness_nm,
         iridescence_thickness_std_nm=reader.fill(0.0),  # a ray meets the film in one point
+        bragg_factor=bragg,
+        bragg_period_texel=period_texel,
         anisotropy_strength=strength,
         anisotropy_tangent=tangent,
         transmission=transmission,
@@ -130,6 +134,13 @@ def _iridescence(reader: _Reader, film: Iridescence | None) -> tuple[Float64, Fl
     share = reader.scalar("iridescence_thickness")
     thickness_nm = film.thickness_min_nm * (1.0 - share) + film.thickness_max_nm * share
     return film.factor * reader.scalar("iridescence"), thickness_nm
+
+
+def _bragg(reader: _Reader, stack: Bragg | None) -> tuple[Float64, Float64]:
+    """Return the layers' share (n,) and the value (n,) along which their periods run."""
+    if stack is None or not reader.calls_for(Effect.BRAGG):
+        return reader.fill(0.0), reader.fill(1.0)
+    return stack.factor * reader.scalar("bragg"), reader.scalar("bragg_period")
 
 
 def _anisotropy(reader: _Reader, stated: Anisotropy | None, normal: Float64) -> tuple[Float64, Float64]:

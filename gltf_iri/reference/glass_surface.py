@@ -155,7 +155,7 @@ def _shares(
         film_reflectances(
             surface,
             plan,
-            FilmOn(surface, film.film_ior, film.method),
+            film.at(surface),
             cos_theta,
             np.ones(len(cos_theta), np.bool_),
         ),

@@ -1,28 +1,28 @@
 """Image light on a surface by Monte-Carlo: ∫ L f |cos θ| dω over the front, unoccluded, for the whole of f.
 
 The rasteriser splits this integral into a prefiltered map and tables; here light, facets and Fresnel stay
-together, direction by direction. Directions are drawn by the environment's brightness, by the facets of base
-and coat, and by the cosine; each weighs as the balance heuristic says (Veach & Guibas 1995, "Optimally
-Combining Sampling Techniques for Monte Carlo Rendering", §3.3): L f |cos θ| / Σ count·density.
+together, direction by direction. Directions are drawn by the environment's brightness, by the facets of base,
+coat and layers, and by the cosine (`techniques.py`); each weighs as the balance heuristic says (Veach &
+Guibas 1995, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", §3.3):
+L f |cos θ| / Σ count·density.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.optics.microfacet import alpha_ggx, anisotropic_alphas
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.environment_map import EnvironmentMap
-from gltf_iri.reference.facets import Axes, draw_facet, mirror_density, mirrored
 from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.lobes import evaluate_lobes
 from gltf_iri.reference.low_discrepancy import net, shifted, standard_error
 from gltf_iri.reference.surface import Surface
+from gltf_iri.reference.techniques import count_techniques, techniques
 
 __all__ = ["Lobes", "estimate", "reflected"]
 
@@ -76,9 +76,9 @@ def estimate(
     estimates = np.zeros((copies, count, 3))
     if plan.calls_for(Effect.UNLIT) or not count:
         return estimates
-    techniques = 2 + plan.calls_for(Effect.CLEARCOAT) + _has_wide_lobes(plan)
-    points = net(_power_of_two(samples / (copies * techniques)))
-    step = max(_CHUNK // (len(points) * techniques), 1)
+    ways = count_techniques(plan)
+    points = net(_power_of_two(samples / (copies * ways)))
+    step = max(_CHUNK // (len(points) * ways), 1)
     for start in range(0, count, step):
         rows = np.arange(start, min(start + step, count))
         here = surface.take(rows)
@@ -101,74 +101,23 @@ def _sent(
     count, per_point = len(surface.position), len(points)
     rows = np.repeat(np.arange(count), per_point)
     repeated = surface.take(rows)
-    techniques = list(_techniques(repeated, plan, environment))
+    ways = list(techniques(repeated, plan, environment))
     total = np.zeros((count, 3))
-    for technique in techniques:
+    for technique in ways:
         place = shifted(points, rng, count).reshape(-1, 2)
         direction = technique.sample(place)
-        density = per_point * np.sum([each.density(direction) for each in techniques], axis=0)
+        density = per_point * np.sum([each.density(direction) for each in ways], axis=0)
         is_lit = (np.sum(repeated.normal * direction, axis=1) > 0.0) & (density > 0.0)
         if plan.calls_for(Effect.CLEARCOAT):
             is_lit |= np.sum(repeated.clearcoat_normal * direction, axis=1) > 0.0
         lit = np.flatnonzero(is_lit)
         here = repeated.take(lit)
         towards_light = direction[lit]
-        f = lobes(here, towards_light, FilmOn(here, film.film_ior, film.method), plan)
+        f = lobes(here, towards_light, film.at(here), plan)
         value = f * environment.radiance(towards_light) / density[lit, None]
         for channel in range(3):
             total[:, channel] += np.bincount(rows[lit], value[:, channel], count)
     return total
-
-
-class _Sky:
-    def __init__(self, environment: EnvironmentMap) -> None:
-        self.sample = environment.sample
-        self.density = environment.density
-
-
-class _Facets:
-    def __init__(self, axes: Axes, view: Float64, alpha_t: Float64, alpha_b: Float64) -> None:
-        self._axes, self._widths = axes, (alpha_t, alpha_b)
-        self._view = axes.to_viewer(view)
-
-    def sample(self, place: Float64) -> Float64:
-        return self._axes.to_world(mirrored(self._view, draw_facet(self._view, *self._widths, place)))
-
-    def density(self, direction: Float64) -> Float64:
-        return mirror_density(self._view, self._axes.to_local(direction), *self._widths)
-
-
-class _Cosine:
-    def __init__(self, axes: Axes) -> None:
-        self._axes = axes
-
-    def sample(self, place: Float64) -> Float64:
-        # Even on the disc below, lifted to the hemisphere (Malley's method).
-        radius, turn = np.sqrt(place[:, 0]), 2.0 * np.pi * place[:, 1]
-        height = np.sqrt(1.0 - place[:, 0])
-        return self._axes.to_world(np.column_stack([radius * np.cos(turn), radius * np.sin(turn), height]))
-
-    def density(self, direction: Float64) -> Float64:
-        return np.asarray(np.maximum(np.sum(direction * self._axes.normal, axis=1), 0.0) / np.pi)
-
-
-def _techniques(
-    surface: Surface, plan: MaterialPlan, environment: EnvironmentMap
-) -> Iterator[_Sky | _Facets | _Cosine]:
-    yield _Sky(environment)
-    axes = Axes.around(surface.normal, surface.anisotropy_tangent)
-    yield _Facets(
-        axes, surface.view, *anisotropic_alphas(surface.alpha_roughness, surface.anisotropy_strength)
-    )
-    if plan.calls_for(Effect.CLEARCOAT):
-        alpha = alpha_ggx(surface.clearcoat_roughness)
-        yield _Facets(Axes.around(surface.clearcoat_normal), surface.view, alpha, alpha)
-    if _has_wide_lobes(plan):
-        yield _Cosine(axes)
-
-
-def _has_wide_lobes(plan: MaterialPlan) -> bool:
-    return plan.calls_for(Effect.DIELECTRIC) or plan.calls_for(Effect.SHEEN)
 
 
 def _power_of_two(number: float) -> int:

@@ -30,6 +30,7 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.film_on import Facets, FilmOn
 from gltf_iri.reference.layers import clearcoat_lobe, clearcoat_reflectance, fibre_lobe, fibre_passage
+from gltf_iri.reference.layers_on import stack_lobes
 from gltf_iri.reference.points import unit
 from gltf_iri.reference.surface import Surface
 
@@ -50,7 +51,8 @@ class Reflectances:
 def evaluate_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan: MaterialPlan) -> Float64:
     """Return f·|cosθ|, (n, 3): what the surface sends towards the viewer per illuminance from one direction.
 
-    The base, under the fibres of a sheen, under a clearcoat. Emission is not in it.
+    The base or, by their factor, Bragg layers in its place, under the fibres of a sheen, under a clearcoat.
+    Emission is not in it.
 
     Parameters
     ----------
@@ -58,6 +60,10 @@ def evaluate_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan:
     film : on the same surface.
     """
     sent = _base_lobes(surface, towards_light, film, plan)
+    if plan.layers is not None and film.layers is not None:
+        share = surface.bragg_factor[:, None]
+        stack = stack_lobes(surface, towards_light, plan.layers, film.layers)
+        sent = (1.0 - share) * sent + share * stack
     if plan.calls_for(Effect.SHEEN):
         n_dot_l = np.clip(np.abs(np.sum(surface.normal * towards_light, axis=1)), 0.0, 1.0)
         sent = fibre_lobe(surface, towards_light) + fibre_passage(surface, n_dot_l)[:, None] * sent

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Final, Literal
@@ -9,6 +10,7 @@ from typing import Final, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.planning.effects import Effect
@@ -22,6 +24,8 @@ from gltf_iri.reference.film_table import TabulatedFilm
 from gltf_iri.reference.gather import gather_surface
 from gltf_iri.reference.glass import Scenery, Traced, trace_glass
 from gltf_iri.reference.image_light import reflected
+from gltf_iri.reference.layers_method import layers_method
+from gltf_iri.reference.layers_on import LayersMethod
 from gltf_iri.reference.points import gather_points
 from gltf_iri.reference.rays import camera_rays
 from gltf_iri.reference.stage import Stage
@@ -50,6 +54,8 @@ class Job:
     environment: Environment | None
     size: tuple[int, int]
     film_method: str | None
+    layer_method: str | None
+    layer_tables: Mapping[int, BakedLayers]
     white: str
     lighting: Lighting
     is_blending: bool
@@ -93,6 +99,7 @@ class Painter:
         self._is_blended = np.asarray(blended) & job.is_blending
         self._slots = np.asarray(job.stage.slots)
         self._methods: dict[int, FilmMethod] = {}
+        self._layers: dict[int, LayersMethod | None] = {}
         self._environment: EnvironmentMap | None = None
         if job.environment is not None and job.lighting != "punctual":
             self._environment = EnvironmentMap(job.environment)
@@ -199,4 +206,10 @@ class Painter:
             # The truth takes a hundred microseconds; a picture asks for millions of films.
             of_film = TabulatedFilm(method) if find_method(name).is_truth else method
             self._methods[slot] = in_one_direction(of_film)
-        return FilmOn(surface, film_ior, self._methods[slot])
+        return FilmOn(surface, film_ior, self._methods[slot], self._layers_of(slot))
+
+    def _layers_of(self, slot: int) -> LayersMethod | None:
+        job, plan = self._job, self._job.stage.plans[slot]
+        if slot not in self._layers:
+            self._layers[slot] = layers_method(plan, job.layer_method, job.layer_tables, job.white)
+        return self._layers[slot]

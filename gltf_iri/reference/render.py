@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.registry import EVALUATORS
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import find_method
+from gltf_iri.reference.layers_method import LAYERS_TRUTH, check_layers
 from gltf_iri.reference.paint import LIGHTINGS, Job, Lighting, Tile
 from gltf_iri.reference.stage import build_stage
 from gltf_iri.reference.tiles import paint_tiles, tile_rows
@@ -65,6 +68,8 @@ def render_reference(
     size: tuple[int, int],
     lighting: Lighting = "all",
     film_method: str | None = None,
+    layer_method: str | None = LAYERS_TRUTH,
+    layer_tables: Mapping[int, BakedLayers] = MappingProxyType({}),
     white: str = "D65",
     is_blending: bool = True,
     image_samples: int = 256,
@@ -85,6 +90,8 @@ def render_reference(
     size : width and height in pixels.
     lighting : "punctual", "image" or "all"; emission is always there.
     film_method, white : a method for every film in place of the plans' own, and the white it works under.
+    layer_method : a method for all Bragg layers; the truth unless told otherwise. None: the plans' own, from
+        `layer_tables` (`baking.layer_fill.bake_layer_plans`, under `white`) where they have tables.
     is_blending : False draws blended materials as if opaque, as the renderer does with its shading inputs.
     image_samples : samples a pixel of the integral over the environment.
     path_depth, paths : surfaces along a path through glass, and paths a pixel. Dense bodies keep light long:
@@ -98,12 +105,16 @@ def render_reference(
     """
     _check(size, lighting, film_method, image_samples, path_depth, paths, seed)
     stage = build_stage(model, scene, plans)
+    for plan in stage.plans:
+        check_layers(plan, layer_method, layer_tables, white)
     job = Job(
         stage=stage,
         camera=camera,
         environment=environment,
         size=size,
         film_method=film_method,
+        layer_method=layer_method,
+        layer_tables=dict(layer_tables),
         white=white,
         lighting=lighting,
         is_blending=is_blending,

@@ -37,6 +37,8 @@ class Surface:
     iridescence_factor: Float64
     iridescence_thickness_nm: Float64
     iridescence_thickness_std_nm: Float64  # within what the point stands for; a ray's point has no size
+    bragg_factor: Float64
+    bragg_period_texel: Float64  # along which the periods of all layers run
     anisotropy_strength: Float64
     anisotropy_tangent: Float64  # unit, in the surface; 0 where the mesh has neither tangents nor coordinates
     transmission: Float64

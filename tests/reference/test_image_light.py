@@ -59,6 +59,8 @@ def _surface(n_dot_v: Any, roughness: float = 0.5, **changes: Any) -> Surface:
         "iridescence_factor": 0.0,
         "iridescence_thickness_nm": 0.0,
         "iridescence_thickness_std_nm": 0.0,
+        "bragg_factor": 0.0,
+        "bragg_period_texel": 1.0,
         "anisotropy_strength": 0.0,
         "anisotropy_tangent": (1.0, 0.0, 0.0),
         "transmission": 0.0,

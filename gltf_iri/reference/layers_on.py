@@ -1,0 +1,88 @@
+"""The Bragg layers of one material at many points: what they send on of light from one direction a point.
+
+The stack stands in place of the base's interface: layers in a host over what lies below it, a Lambertian
+share (1 − metallic)·colour and a metal of the material's own roughness. The sum is that of
+`evaluation/layers.py`; here are the points that it is taken at. Twin: shaders/lighting/bragg_layers.glsl.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.evaluation.layers import LayerBase, LayerColours, coating_reflectance, layer_terms
+from gltf_iri.evaluation.planned_stack import planned_stack
+from gltf_iri.optics.layer_stack import Sight, coating_transmittance, cosine_in_host
+from gltf_iri.optics.microfacet import ALPHA_MIN, d_ggx, v_smith_ggx_correlated
+from gltf_iri.planning.layer_plan import LayersPlan
+from gltf_iri.reference.points import unit
+from gltf_iri.reference.surface import Surface
+
+__all__ = ["LayersMethod", "sight_between", "stack_lobes"]
+
+Float64 = NDArray[np.float64]
+
+# The colours of one material's layers where the period texture reads (n,).
+LayersMethod = Callable[[Float64], LayerColours]
+
+
+def stack_lobes(surface: Surface, towards_light: Float64, plan: LayersPlan, method: LayersMethod) -> Float64:
+    """Return f·cosθ of the stack, (n, 3), for light (n, 3) from the front; 0 for light from behind."""
+    n_dot_l = np.clip(np.sum(surface.normal * towards_light, axis=1), 0.0, 1.0)
+    # Looking straight into a light there is no half vector, and no facet that could mirror it.
+    is_lit = (n_dot_l > 0.0) & np.any(surface.view + towards_light != 0.0, axis=1)
+    sent = np.zeros_like(surface.base_color)
+    rows = np.flatnonzero(is_lit)
+    if not len(rows):
+        return sent
+    here, light, cosine = surface.take(rows), towards_light[rows], n_dot_l[rows]
+    base = None if plan.under == "nothing" else _base_of(here)
+    stack = planned_stack(plan, here.bragg_period_texel, base)
+    sight = sight_between(here, light, cosine, plan.host_ior)
+    terms = layer_terms(stack, sight, method(here.bragg_period_texel))
+    below = sight.passage[:, None] * np.sum(terms, axis=0)
+    if plan.host_ior != 1.0:
+        below = below + _coating(here, light, cosine, plan.host_ior)[:, None]
+    sent[rows] = cosine[:, None] * below
+    return sent
+
+
+def sight_between(surface: Surface, towards_light: Float64, n_dot_l: Float64, host_ior: float) -> Sight:
+    """Return how the layers see light and viewer, as `sight_of` by vectors.
+
+    Bending divides by the host's index what of both lies in the surface.
+    """
+    cos_i, cos_o = cosine_in_host(host_ior, n_dot_l), cosine_in_host(host_ior, surface.n_dot_v)
+    both = towards_light + surface.view
+    level = (both - np.sum(both * surface.normal, axis=1, keepdims=True) * surface.normal) / host_ior
+    level_squared = np.sum(level * level, axis=1)
+    total = level_squared + (cos_i + cos_o) ** 2
+    passage = np.ones(len(total))
+    if host_ior != 1.0:
+        passage = coating_transmittance(host_ior, n_dot_l) * coating_transmittance(host_ior, surface.n_dot_v)
+        passage = passage / host_ior**2
+    # Rounding, and a view from behind the normal, may make the two of them longer than 2.
+    return Sight(cos_i, cos_o, np.minimum(0.5 * np.sqrt(total), 1.0), level_squared / total, passage)
+
+
+def _coating(surface: Surface, towards_light: Float64, n_dot_l: Float64, host_ior: float) -> Float64:
+    """Return f (n,) of the host's surface alone, drawn as the smoothest facets that are (`ALPHA_MIN`)."""
+    half = unit(surface.view + towards_light)
+    v_dot_h = np.clip(np.sum(surface.view * half, axis=1), 0.0, 1.0)
+    n_cross_h = np.cross(surface.normal, half)
+    facets = d_ggx(np.sum(n_cross_h * n_cross_h, axis=1), ALPHA_MIN)
+    seen = v_smith_ggx_correlated(n_dot_l, surface.n_dot_v, ALPHA_MIN)
+    return np.asarray(coating_reflectance(host_ior, v_dot_h) * facets * seen)
+
+
+def _base_of(surface: Surface) -> LayerBase:
+    # Interpolated values may overshoot by a rounding; no reflectance exceeds 1.
+    m = np.clip(surface.metallic, 0.0, 1.0)
+    return LayerBase(
+        (1.0 - m)[:, None] * surface.base_color,
+        surface.base_color,
+        m,
+        np.minimum(surface.alpha_roughness, 1.0),
+    )
