@@ -26,7 +26,7 @@ struct Sight {
 // cosθ' = √(1 − (1 − c²)/n_h²), Snell's law from air
 float cosine_in_host(float host_ior, float cos_theta) {
     float inside = sqrt((host_ior - 1.0) * (host_ior + 1.0) + sq(cos_theta)) / host_ior;
-    return host_ior == 1.0 ? cos_theta : inside;
+    return host_ior == 1.0 ? cos_theta : min(inside, 1.0);  // rounding may lift it above 1, which has no sine
 }
 
 // T = ½(T_s + T_p) of the step from air into the host, T = 4Y₁Y₂/(Y₁ + Y₂)², Y = q (s) and q/n² (p)

@@ -57,7 +57,7 @@ struct FilterLight {
 };
 
 FilterLight filter_light(float cos_theta_i, float alpha) {
-    float c = max(cos_theta_i, 1e-9);  // 0 would divide by it
+    float c = clamp(cos_theta_i, 1e-9, 1.0);  // 0 would divide by it, and what is above 1 has no sine
     float s = sqrt((1.0 - c) * (1.0 + c));
     float g1_over_cosine = 2.0 / (c + sqrt(sq(alpha) + (1.0 - sq(alpha)) * sq(c)));
     return FilterLight(c, s, alpha, quadrant_angle(s, c), 2.0 / PI * sq(g1_over_cosine * alpha) * c);
