@@ -6,7 +6,7 @@ tables hold. What nothing attenuates, the first layer's reflection, is a colour 
 
 from __future__ import annotations
 
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,9 +15,10 @@ from gltf_iri.colour.bands import Bands, bands_of
 from gltf_iri.colour.quadrature import HALF_BANDWIDTH_PER_NM, ColourRule, colour_rule
 from gltf_iri.colour.spaces import White
 from gltf_iri.evaluation.film import Evaluation
-from gltf_iri.evaluation.layer_rows import FacetRows, PassingRows
-from gltf_iri.evaluation.layers import LayeredSurface, LayerStack, evaluate_layered
+from gltf_iri.evaluation.layers import BraggLayer, LayeredSurface, LayerStack, evaluate_layered
 from gltf_iri.evaluation.layers_single import LayersSingle
+from gltf_iri.optics.bragg import bragg_reflectance
+from gltf_iri.optics.rough_bragg import filter_nodes
 
 __all__ = ["LAYER_BANDS", "LayersBands", "evaluate_layers_bands", "means_rule"]
 
@@ -25,13 +26,16 @@ Float64 = NDArray[np.float64]
 
 LAYER_BANDS: Final = 16
 
-# The rule under the means: its wavelengths lie closer than bands are wide, and twice as close as fringes.
-# What finer fringes than the last degree's add to a mean is less than what bands leave out.
-_FIRST_DEGREE: Final = 256
-_LAST_DEGREE: Final = 1024
-_OVERSAMPLED: Final = 2.0
+# The rule under the means: wavelengths closer than the resonances beside band gaps are wide, at most mirrors.
+# Against 192 points and degree 4096, 16 stacks of 10 and 20 cells, 32 bands: ΔE 0.02, a tenth of what those err.
+_FIRST_DEGREE: Final = 1024
+_LAST_DEGREE: Final = 4096
+_OVERSAMPLED: Final = 6.0
 
-_ROWS_AT_ONCE: Final = 1024  # bounds memory: a block holds 1024 × 1025 numbers
+# Gauss points on each of the filter's panels. Means over bands are smoother over angles than spectra are.
+_FILTER_POINTS: Final = 48
+
+_VALUES_AT_ONCE: Final = 1 << 20  # bounds memory: rows × angles × wavelengths
 
 
 def means_rule(opd_nm: float, white: White) -> ColourRule:
@@ -55,36 +59,56 @@ class LayersBands:
         """Return (..., 3), the colour of R_layer(h) Π_{k<layer} T_k(i) T_k(o)."""
         if layer == 0:
             return self._exact.reflected(0, cos_h, cos_i, cos_o)
-        return self._colour(layer, layer, (cos_h, cos_i, cos_o))
+        return self._coloured(self._means(layer, cos_h, is_passed=False) * self._through(layer, cos_i, cos_o))
 
     def passed(self, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (..., 3), the colour of Π_k T_k(i) T_k(o) over all layers; 1 where there is none."""
-        return self._colour(None, len(self._stack.layers), (cos_i, cos_i, cos_o))
+        return self._coloured(self._through(len(self._stack.layers), cos_i, cos_o))
 
-    def _colour(
-        self, reflecting: int | None, above: int, cosines: tuple[Float64, Float64, Float64]
-    ) -> Float64:
-        stack = self._stack
-        used = stack.layers[: above if reflecting is None else above + 1]
-        shape = np.broadcast_shapes(
-            *(np.shape(c) for c in cosines), stack.host_ior.shape, *(layer.shape for layer in used)
-        )
-        h, i, o = (np.broadcast_to(np.asarray(c, np.float64), shape).reshape(-1) for c in cosines)
-        facets = [FacetRows(layer, stack.host_ior, shape, h) for layer in used]
-        passing = [PassingRows(layer, stack.host_ior, shape, (i, o)) for layer in used[:above]]
-        rule = means_rule(max((float(a.opd_nm.max(initial=0.0)) for a in facets), default=0.0), self._white)
+    def _coloured(self, means: Float64) -> Float64:
+        return np.asarray(means @ self._bands.weights)
+
+    def _through(self, above: int, cos_i: Float64, cos_o: Float64) -> Float64:
+        shape = np.broadcast_shapes(np.shape(cos_i), np.shape(cos_o))
+        product = np.ones((*shape, len(self._bands.weights)))
+        for number in range(above):
+            for cosine in (cos_i, cos_o):
+                product = product * self._means(number, cosine, is_passed=True)
+        return product
+
+    def _means(self, number: int, cosine: Float64, *, is_passed: bool) -> Float64:
+        """Return (..., B): means of what facets at `cosine` reflect, or of what their layer passes."""
+        layer, host = self._stack.layers[number], self._stack.host_ior
+        shape = np.broadcast_shapes(np.shape(cosine), host.shape, layer.shape)
+        rule = means_rule(_opd_nm(layer), self._white)
         shares = self._bands.shares(rule)
-        rgb = np.zeros((len(h), 3))
-        for start in range(0, len(h), _ROWS_AT_ONCE):
-            rows = np.arange(start, min(start + _ROWS_AT_ONCE, len(h)))
-            product = np.ones((len(rows), len(self._bands.weights)))
-            if reflecting is not None:
-                product *= facets[reflecting].reflectance(rows, rule.wavelength_nm) @ shares
-            for each in passing:
-                for way in each.ways(rows, rule.wavelength_nm):
-                    product *= way @ shares
-            rgb[rows] = product @ self._bands.weights
-        return rgb.reshape(*shape, 3)
+        rows = np.broadcast_to(cosine, shape).reshape(-1)
+        nodes, weights = rows[:, None], np.ones((len(rows), 1))
+        if is_passed and layer.alpha.any():
+            alpha = np.broadcast_to(layer.alpha, shape).reshape(-1)
+            nodes, weights = filter_nodes(rows, alpha, count=_FILTER_POINTS)
+        cell = [_column(a, shape) for a in (host, layer.n1, layer.n2, layer.d1_nm, layer.d2_nm, layer.cells)]
+        means = np.zeros((len(rows), shares.shape[1]))
+        step = max(1, _VALUES_AT_ONCE // (nodes.shape[1] * len(shares)))
+        for start in range(0, len(rows), step):
+            part = slice(start, start + step)
+            host_ior, n1, n2, d1_nm, d2_nm, cells = (a if len(a) == 1 else a[part] for a in cell)
+            reflectance = bragg_reflectance(
+                host_ior, n1, n2, d1_nm, d2_nm, cells, rule.wavelength_nm, nodes[part, :, None]
+            )
+            seen = 1.0 - reflectance if is_passed else reflectance
+            means[part] = np.matmul(weights[part, None], seen)[:, 0] @ shares
+        return means.reshape(*shape, -1)
+
+
+def _column(values: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
+    """Return (r, 1, 1), or (1, 1, 1) for all rows."""
+    return (values if values.size == 1 else np.broadcast_to(values, shape)).reshape(-1, 1, 1)
+
+
+def _opd_nm(layer: BraggLayer) -> float:
+    """Return the path difference of the finest fringes that any of a layer's mirrors has."""
+    return float(np.max(2.0 * layer.cells * (layer.n1 * layer.d1_nm + layer.n2 * layer.d2_nm)))
 
 
 def evaluate_layers_bands(surface: LayeredSurface, white: White, *, bands: int = LAYER_BANDS) -> Evaluation:
