@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.errors import UsageError
-from gltf_iri.evaluation.layer_spectra import LayerRows
+from gltf_iri.evaluation.layer_spectra import LayerSpectra
 from gltf_iri.evaluation.layers import LayerStack
 from gltf_iri.optics.rough_bragg import g1_smith
 from gltf_iri.optics.visible_normals import draw_facet, mirrored
@@ -28,10 +28,9 @@ __all__ = ["StackFacets"]
 
 Float64 = NDArray[np.float64]
 
-# Nodes of the table over θ, so many that straight lines between them err by 2e-4 of the fringes which facets
-# so rough leave; 4096 are 2 MB for 65 wavelengths.
-_NODES_AN_ALPHA: Final = 40.0
-_NODES_MIN: Final = 193
+# Nodes of the table over θ, so many that cubics through four of them err by 1e-5.
+_NODES_AN_ALPHA: Final = 15.0
+_NODES_MIN: Final = 65
 _NODES_MAX: Final = 4096
 
 # G₁ vanishes at grazing: the table's last node stands for it just above.
@@ -72,8 +71,7 @@ class StackFacets:
         """Return R (n, W) of facets met at `cosine` (n,), the mean of both polarisations."""
         # Paths that have not turned yet share one direction.
         once, back = np.unique(np.clip(cosine, 0.0, 1.0), return_inverse=True)
-        rows = np.arange(len(once))
-        return np.asarray(self._layers[layer].reflectance(rows, once, self.wavelength_nm)[back])
+        return np.asarray(self._layers[layer].reflectance(once, self.wavelength_nm)[back])
 
     def facet_passage(self, layer: int, cosine: Float64) -> Float64:
         """Return the mean (n, W) of 1 − R over the facets that light at `cosine` (n,) sees: T/G₁, Eq. 28."""
@@ -81,9 +79,17 @@ class StackFacets:
             return 1.0 - self.reflectance(layer, cosine)
         table = self._passages[layer]
         place = np.arccos(np.clip(cosine, 0.0, 1.0)) * ((len(table) - 1) / (0.5 * np.pi))
-        low = np.minimum(place.astype(np.intp), len(table) - 2)
-        inside = (place - low)[:, None]
-        return np.asarray(table[low] * (1.0 - inside) + table[low + 1] * inside)
+        low = np.clip(place.astype(np.intp), 1, len(table) - 3)
+        t = (place - low)[:, None]
+        # Lagrange's cubic through the nodes −1, 0, 1 and 2.
+        inner = (t + 1.0) * (t - 2.0) / 2.0
+        outer = t * (t - 1.0) / 6.0
+        return np.asarray(
+            table[low] * (inner * (t - 1.0))
+            - table[low + 1] * (inner * t)
+            - table[low - 1] * (outer * (t - 2.0))
+            + table[low + 2] * (outer * (t + 1.0))
+        )
 
     def drawn_facet(self, layer: int, view: Float64, rng: np.random.Generator) -> tuple[Float64, Float64]:
         """Return the direction (n, 3) that a facet drawn for `view` mirrors to, and its R (n, W)."""
@@ -97,8 +103,9 @@ class StackFacets:
         return StackFacets(self.stack, one, lambda: [table[:, wavelength, None] for table in self._passages])
 
     @cached_property
-    def _layers(self) -> Sequence[LayerRows]:
-        return [LayerRows.of(layer, self.stack.host_ior, ()) for layer in self.stack.layers]
+    def _layers(self) -> Sequence[LayerSpectra]:
+        host = float(self.stack.host_ior)
+        return [LayerSpectra(layer, host) for layer in self.stack.layers]
 
     @cached_property
     def _passages(self) -> Sequence[Float64]:
@@ -112,5 +119,5 @@ class StackFacets:
             return np.zeros((0, len(self.wavelength_nm)))
         nodes = int(np.clip(_NODES_AN_ALPHA / alpha, _NODES_MIN, _NODES_MAX))
         cosine = np.maximum(np.cos(np.linspace(0.0, 0.5 * np.pi, nodes)), _COS_MIN)
-        passed = self._layers[layer].transmissivity(np.arange(nodes), cosine, self.wavelength_nm)
+        passed = self._layers[layer].transmissivity(cosine, self.wavelength_nm)
         return np.asarray(passed / g1_smith(cosine, alpha)[:, None])

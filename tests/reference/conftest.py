@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -19,6 +20,9 @@ from gltf_iri.reference.stage import build_stage
 from gltf_iri.reference.tracer import Tracer
 from gltf_iri.scene.load import Model
 from gltf_iri.scene.model import Camera, Light, Primitive, Scene
+
+# Where layers_three_wavelengths.py lies.
+sys.path.append(str(Path(__file__).resolve().parent))
 
 
 @dataclass
