@@ -19,6 +19,7 @@ from gltf_iri.optics.bragg import bragg_reflectance
 from gltf_iri.optics.layer_stack import coating_transmittance
 from gltf_iri.optics.microfacet import d_ggx, v_smith_ggx_correlated
 from gltf_iri.optics.quadrature import gauss_unit
+from gltf_iri.reference import layers_mc, layers_walk
 from gltf_iri.reference.layers_mc import LayersEstimate, simulate, simulate_brdf
 from gltf_iri.reference.layers_tally import Bins, Sampled
 
@@ -211,6 +212,25 @@ def test_light_trapped_under_a_coating_is_the_closed_sum() -> None:
     reflected = found.balance["reflected"]
     assert abs(reflected.mean - expected) < 4.0 * reflected.error < 0.02
     assert_allclose(found.balance["mirrored"].mean, 1.0 - coating_transmittance(ior, 0.6))
+
+
+def test_blocks_of_paths_are_one_simulation(monkeypatch: pytest.MonkeyPatch) -> None:
+    options = {"paths": 5_001, "wavelength_nm": [550.0]}
+    whole = simulate(STACKS["beetle on white"], 0.5, rng=np.random.default_rng(1), **options)
+    monkeypatch.setattr(layers_mc, "_VALUES_AT_ONCE", 400)
+    parts = simulate(STACKS["beetle on white"], 0.5, rng=np.random.default_rng(2), **options)
+    assert parts.paths == whole.paths == 5_001
+    assert_same([whole.balance["reflected"], parts.balance["reflected"]])
+    # A block's error would be √13 times as large.
+    assert_allclose(parts.balance["reflected"].error, whole.balance["reflected"].error, rtol=0.1)
+
+
+def test_paths_that_are_given_up_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(layers_walk, "_STEPS_MAX", 1)
+    options = {"paths": 2_000, "wavelength_nm": [550.0], "transmission": "facets", "spectrum": "single"}
+    found = simulate(STACKS["A on grey"], 0.5, rng=np.random.default_rng(1), **options)
+    assert found.balance["lost"].mean > 0.1
+    assert_allclose(total(found), 1.0, atol=1e-10)
 
 
 def test_seeds_decide() -> None:
