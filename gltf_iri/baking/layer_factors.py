@@ -21,7 +21,7 @@ from gltf_iri.optics.quadrature import gauss_unit
 from gltf_iri.optics.rough_bragg import filter_nodes
 from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
 
-__all__ = ["LayerFactors", "SkyFactors", "layer_factors", "sky_factors"]
+__all__ = ["LayerFactors", "SkyFactors", "layer_factors", "passing_moments", "sky_factors"]
 
 Float64 = NDArray[np.float64]
 
@@ -86,9 +86,6 @@ def layer_factors(
         transmitted = 1.0 - reflected
     else:
         transmitted = _passed(cosines, layer.alpha, series[..., :bands])
-    if not weighing.is_colour:
-        # Series swing about what they stand for; means over bands are shares.
-        transmitted = np.clip(transmitted, 0.0, 1.0)
     return LayerFactors(reflected, direct[..., bands:], transmitted, series)
 
 
@@ -117,9 +114,15 @@ def sky_factors(layer: PlannedLayer, factors: LayerFactors, cosines: Float64) ->
 
 def _passed(cosines: Float64, alpha: float, series: Float64) -> Float64:
     """Return (p, c, B), T = ∫ (1 − R) F_α dθ_d of a series (p, terms, B) of R; of smooth layers 1 − R."""
-    terms = series.shape[1]
-    if alpha <= ALPHA_MIN:
-        return np.asarray(1.0 - np.einsum("cj,pjb->pcb", chebvander(2.0 * cosines - 1.0, terms - 1), series))
-    met, weights = filter_nodes(cosines, alpha)
-    moments = chebyshev_moments(met, weights, terms)
+    moments = passing_moments(cosines, alpha, series.shape[1])
     return np.asarray(moments[:, :1] - np.einsum("cj,pjb->pcb", moments, series))
+
+
+def passing_moments(cosines: Float64, alpha: float, terms: int) -> Float64:
+    """Return ∫ T_j(2 cosθ_d − 1) F_α dθ_d, (c, terms), at the cosines (c,); the first is G₁.
+
+    Of layers as smooth as can be the filter has all its weight, 1, at the light's own angle.
+    """
+    if alpha <= ALPHA_MIN:
+        return np.asarray(chebvander(2.0 * cosines - 1.0, terms - 1))
+    return chebyshev_moments(*filter_nodes(cosines, alpha), terms)

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.baking.cache import TableCache
 from gltf_iri.baking.layer_cache import read_layers, write_layers
-from gltf_iri.baking.layer_factors import layer_factors, sky_factors
+from gltf_iri.baking.layer_factors import LayerFactors, SkyFactors, layer_factors, sky_factors
 from gltf_iri.baking.layer_spectra import weighing_of
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
 from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.planning.material_plan import MaterialPlan
 
-__all__ = ["bake_layer_plans", "bake_layers", "cosine_nodes", "texel_nodes"]
+__all__ = ["bake_layer_plans", "bake_layers", "cosine_nodes", "filled_layers", "texel_nodes"]
 
 Float64 = NDArray[np.float64]
 Floats = NDArray[np.floating[Any]]
@@ -54,8 +54,7 @@ def bake_layers(plan: LayersPlan, white: White = "D65", *, cache: TableCache | N
     found = None if cache is None else read_layers(cache, plan, white)
     if found is not None:
         return found
-    start = time.perf_counter()
-    baked = _filled(plan, white, start)
+    baked = filled_layers(plan, white)
     if cache is not None:
         write_layers(cache, baked)
     return baked
@@ -71,7 +70,12 @@ def texel_nodes(plan: LayersPlan, nodes: int) -> Float64:
     return np.linspace(plan.texel.low, plan.texel.high, nodes) if nodes > 1 else np.array([plan.texel.high])
 
 
-def _filled(plan: LayersPlan, white: White, start: float) -> BakedLayers:
+def filled_layers(plan: LayersPlan, white: White, *, has_sky: bool = True) -> BakedLayers:
+    """Return the tables of `plan` filled under `white`; raises as `bake_layers`.
+
+    has_sky : without, what becomes of image light is left 0, for a half of the time.
+    """
+    start = time.perf_counter()
     tables = plan.tables
     if tables is None:
         raise UsageError("These layers are computed directly: their plan has no tables to fill.")
@@ -83,7 +87,7 @@ def _filled(plan: LayersPlan, white: White, start: float) -> BakedLayers:
     first: list[Floats] = []
     for layer in plan.layers:
         factors = layer_factors(plan, layer, texel, cosines, weighing)
-        sky = sky_factors(layer, factors, cosines)
+        sky = sky_factors(layer, factors, cosines) if has_sky else _no_sky(factors)
         if not first:
             first = [_fours(each).astype(dtype) for each in (factors.colour, sky.colour)]
         for name, values in zip(kept, (factors.reflected, factors.transmitted, sky.albedo), strict=True):
@@ -101,6 +105,14 @@ def _filled(plan: LayersPlan, white: White, start: float) -> BakedLayers:
         weights=_fours(weighing.weights.T).T,
         white=str(white),
         filled_in_s=time.perf_counter() - start,
+    )
+
+
+def _no_sky(factors: LayerFactors) -> SkyFactors:
+    return SkyFactors(
+        np.zeros_like(factors.reflected),
+        np.zeros_like(factors.colour),
+        np.zeros_like(factors.reflected[:, 0]),
     )
 
 

@@ -23,9 +23,9 @@ __all__ = ["Weighing", "layer_rule", "layer_spectra", "weighing_of"]
 
 Float64 = NDArray[np.float64]
 
-# Even wavenumbers: two for each turn of the finest fringes see them, a hundred see the resonances beside the
-# band gaps, which are so much narrower: of 20 cells of 200 nm, colours keep ΔE 0.01 (p95).
-_A_TURN: Final = 100.0
+# Even wavenumbers: two for each turn of the finest fringes see them, fifty and more the resonances beside the
+# band gaps, which are so much narrower: of 20 cells of 200 nm, 2048 keep colours to ΔE 0.01 (p95).
+_A_TURN: Final = 50.0
 _FEWEST: Final = 512
 _MOST: Final = 8192
 
@@ -35,22 +35,20 @@ class Weighing:
     """How tables keep a spectrum: B sums over its values at the wavelengths of `rule`.
 
     shares : (k, B) of each wavelength; weights : (B, 3) of each sum in linear Rec.709.
-    is_colour : the sums are a colour, and no means.
     """
 
     rule: ColourRule
     shares: Float64
     weights: Float64
-    is_colour: bool
 
 
 def weighing_of(plan: LayersPlan, bands: int, white: White, *, is_colour: bool) -> Weighing:
     """Return how means over `bands` bands under `white` are made of the spectra of `plan`, or colours."""
     rule = layer_rule(plan, white)
     if is_colour:
-        return Weighing(rule, rule.weights, np.eye(3), is_colour=True)
+        return Weighing(rule, rule.weights, np.eye(3))
     found = bands_of(bands, white)
-    return Weighing(rule, found.shares(rule), found.weights, is_colour=False)
+    return Weighing(rule, found.shares(rule), found.weights)
 
 
 def layer_rule(plan: LayersPlan, white: White) -> ColourRule:

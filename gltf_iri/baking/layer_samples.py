@@ -1,0 +1,161 @@
+"""Colours of a plan's layers at random poses: the truth, and what bands and colours make of it.
+
+All come from the same spectra. Where the texture of periods varies, some of its values are drawn, and for
+each some poses: a layer's spectra at one period give what passes it in every direction.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.baking.facet_matrix import chebyshev_cosines, to_coefficients
+from gltf_iri.baking.layer_factors import passing_moments
+from gltf_iri.baking.layer_spectra import Weighing, layer_rule, layer_spectra, weighing_of
+from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.colour.quadrature import ColourRule
+from gltf_iri.colour.quantile import SHARE, bounds
+from gltf_iri.colour.spaces import White
+from gltf_iri.optics.layer_stack import sight_of
+from gltf_iri.optics.microfacet import ALPHA_MIN
+from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
+
+__all__ = ["COLOURS", "LayerSamples", "p95_below", "p95_of", "sampled_layers"]
+
+Float64 = NDArray[np.float64]
+
+# Stands among numbers of bands for colours that are multiplied.
+COLOURS: Final = 0
+
+_TERMS: Final = 384  # of the series over the cosine: resonances beside band gaps are narrow
+_POSES_AT_ONCE: Final = 256  # bounds memory: each has some spectra of up to 8192 values
+
+# Colours (n, 3): each layer's reflection, outermost first, and at the end what passes all, over a base.
+Terms = tuple[Float64, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LayerSamples:
+    """n poses, with cosines in the host and values of the texture of periods.
+
+    truth : of single reflections; by_bands : what so many bands make of it without any table.
+    """
+
+    texel: Float64
+    cos_h: Float64
+    cos_i: Float64
+    cos_o: Float64
+    truth: Terms
+    by_bands: dict[int, Terms]
+
+
+def p95_below(found: Terms, truth: Terms) -> float:
+    """Return what the p95 of CIEDE2000 surely lies below (`colour.quantile`), the greatest of the terms'."""
+    return max(bounds(delta_e_2000(a, b))[1] for a, b in zip(found, truth, strict=True))
+
+
+def p95_of(found: Terms, truth: Terms) -> float:
+    """Return the p95 of CIEDE2000 at these samples themselves, the greatest of the terms'."""
+    errors = (delta_e_2000(a, b) for a, b in zip(found, truth, strict=True))
+    return max(float(np.quantile(each, SHARE)) for each in errors)
+
+
+def sampled_layers(
+    plan: LayersPlan, white: White, *, texels: int, poses: int, seed: int, bands: Sequence[int]
+) -> LayerSamples:
+    """Return `texels` · `poses` samples, poses alone where no period varies.
+
+    Cosines outside are uniform in [0, 1], the turn between light and viewer in [0, π], the texture uniform
+    over its span.
+
+    bands : numbers of them that are wanted, COLOURS among them.
+    """
+    g = np.random.default_rng(seed)
+    groups, each = (texels, poses) if plan.varies else (1, texels * poses)
+    at = plan.texel.low + (plan.texel.high - plan.texel.low) * g.uniform(size=groups)
+    cos_i, cos_o = g.uniform(size=(2, groups, each))
+    sight = sight_of(plan.host_ior, cos_i, cos_o, np.cos(np.pi * g.uniform(size=(groups, each))))
+    weighings = {b: weighing_of(plan, max(b, 3), white, is_colour=b == COLOURS) for b in bands}
+    parts = []
+    for group in range(groups):
+        facets = [_Facets.of(plan, layer, at[group], white) for layer in plan.layers]
+        for start in range(0, each, _POSES_AT_ONCE):
+            some = slice(start, start + _POSES_AT_ONCE)
+            cosines = [c[group, some] for c in (sight.cos_h, sight.cos_i, sight.cos_o)]
+            parts.append(_colours(facets, cosines, weighings, has_base=plan.under == "base"))
+    return LayerSamples(
+        np.repeat(at, each),
+        sight.cos_h.reshape(-1),
+        sight.cos_i.reshape(-1),
+        sight.cos_o.reshape(-1),
+        _joined([truth for truth, _ in parts]),
+        {b: _joined([found[b] for _, found in parts]) for b in bands},
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Facets:
+    """One layer at one period: spectra by `rule`, and (terms, k) of the series of R over the cosine."""
+
+    plan: LayersPlan
+    layer: PlannedLayer
+    texel: Float64
+    rule: ColourRule
+    series: Float64
+
+    @classmethod
+    def of(cls, plan: LayersPlan, layer: PlannedLayer, texel: Float64, white: White) -> _Facets:
+        rule = layer_rule(plan, white)
+        values = layer_spectra(plan, layer, texel, chebyshev_cosines(_TERMS), rule)
+        return cls(plan, layer, texel, rule, to_coefficients(_TERMS) @ values)
+
+    def reflected(self, cosine: Float64) -> Float64:
+        """Return R (n, k)."""
+        return layer_spectra(self.plan, self.layer, self.texel, cosine, self.rule)
+
+    def passed(self, cosine: Float64) -> Float64:
+        """Return T (n, k)."""
+        if self.layer.alpha <= ALPHA_MIN:
+            return 1.0 - self.reflected(cosine)
+        moments = passing_moments(cosine, self.layer.alpha, _TERMS)
+        return np.asarray(moments[:, :1] - moments @ self.series)
+
+
+def _colours(
+    facets: Sequence[_Facets],
+    cosines: Sequence[Float64],
+    weighings: Mapping[int, Weighing],
+    *,
+    has_base: bool,
+) -> tuple[Terms, dict[int, Terms]]:
+    """Return the truth, and what each weighing makes of it."""
+    cos_h, cos_i, cos_o = cosines
+    truth: list[Float64] = []
+    found: dict[int, list[Float64]] = {b: [] for b in weighings}
+    through, by_bands = np.ones(1), dict.fromkeys(weighings, np.ones(1))
+    for number, each in enumerate(facets):
+        reflected, weights = each.reflected(cos_h), each.rule.weights
+        truth.append((reflected * through) @ weights)
+        for b, weighing in weighings.items():
+            means = (reflected @ weighing.shares) * by_bands[b]
+            found[b].append(means @ weighing.weights if number else truth[0])
+        if number == len(facets) - 1 and not has_base:
+            break
+        for cosine in (cos_i, cos_o):
+            passed = each.passed(cosine)
+            through = through * passed
+            for b, weighing in weighings.items():
+                by_bands[b] = by_bands[b] * (passed @ weighing.shares)
+    if has_base:
+        truth.append(through @ facets[0].rule.weights)
+        for b, weighing in weighings.items():
+            found[b].append(by_bands[b] @ weighing.weights)
+    return tuple(truth), {b: tuple(terms) for b, terms in found.items()}
+
+
+def _joined(parts: Sequence[Terms]) -> Terms:
+    return tuple(np.concatenate(each) for each in zip(*parts, strict=True))

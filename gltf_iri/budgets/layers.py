@@ -1,0 +1,99 @@
+"""The cheapest way to the colours of Bragg layers whose measured error keeps a budget.
+
+Surfaces are drawn out of tables: of colours, or of so many bands; the fewer a look-up reads, the cheaper it
+is. Stacks alone are computed by the methods themselves. What is stated is a number that the p95 of CIEDE2000
+against `layers-single` lies below, over poses whose cosines are uniform (`gltf_iri.colour.quantile`).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.baking.layer_resolution import LayerFit, fit_layer_tables
+from gltf_iri.budgets.search import check_budget, figure
+from gltf_iri.colour.spaces import WHITES, Light, White
+from gltf_iri.errors import UsageError
+from gltf_iri.planning.costs import Device, shipped_costs
+from gltf_iri.planning.layer_plan import LayersPlan, LayerTables
+from gltf_iri.planning.method import truth_of
+from gltf_iri.tolerances import GLSL_FILM_DELTA_E
+
+__all__ = ["AskedOfLayers", "choose_layers", "layer_table_ns", "look_ups"]
+
+Float64 = NDArray[np.float64]
+
+_TEXTURE: Final = "texture"  # what the map of costs calls a look-up in a texture
+
+
+@dataclass(frozen=True, slots=True)
+class AskedOfLayers:
+    """What the layers of one material are wanted for: the budget, on what, under which white."""
+
+    budget: float
+    device: Device = "glsl"
+    white: str | Light = "D65"
+
+
+def choose_layers(plan: LayersPlan, asked: AskedOfLayers, subject: str) -> LayersPlan:
+    """Return `plan` with the cheapest tables that keep the budget, the truth's method for a budget of 0.
+
+    subject : stands in the error. Raises UsageError for a budget below 0 or NaN, and where no tables keep it.
+    """
+    budget = check_budget(asked.budget)
+    if budget == 0.0:
+        ns = shipped_costs().ns_per_colour(asked.device, "layers", truth_of("layers"))
+        return replace(
+            plan,
+            method=truth_of("layers"),
+            parameters={},
+            tables=None,
+            delta_e=0.0,
+            ns_per_colour=ns or 0.0,
+            reason="the truth itself, as a budget of 0 asks",
+        )
+    floor = GLSL_FILM_DELTA_E if asked.device == "glsl" else 0.0
+    white: White = "D65" if asked.white == "D65" else "E"
+    fit = LayerFit(None, math.inf)
+    if asked.white in WHITES and budget > floor:
+        fit = fit_layer_tables(plan, budget - floor, white=white)
+    if fit.tables is None:
+        raise UsageError(
+            f"No tables of layers keep ΔE {budget:g} for {subject}: the best err by {figure(fit.best)}."
+            " Ask for more, or for 0, the truth itself."
+        )
+    tables = fit.tables
+    ns, delta_e = layer_table_ns(plan, tables, asked.device), tables.delta_e + floor
+    size = tables.bytes(len(plan.layers)) / 1024.0
+    what = "colours" if tables.is_colour else f"{tables.bands} bands"
+    return replace(
+        plan,
+        method="layers-rgb" if tables.is_colour else "layers-bands",
+        parameters={"reflectance": "yeh-spectral"} if tables.is_colour else {"bands": tables.bands},
+        tables=tables,
+        delta_e=delta_e,
+        ns_per_colour=ns,
+        reason=f"{what} are the fewest that keep ΔE {budget:g}: ΔE ≤ {figure(delta_e)} for"
+        f" {look_ups(plan, tables)} look-ups, {figure(ns)} ns a colour, in {size:.3g} KiB",
+    )
+
+
+def look_ups(plan: LayersPlan, tables: LayerTables) -> int:
+    """Return how many texels one light's colour takes: a colour, then four bands of each factor at a time."""
+    quads, count = -(-tables.bands // 4), len(plan.layers)
+    crossed = count if plan.under == "base" else count - 1
+    # The first layer's reflection is a colour; the others' are bands, as what each passes either way.
+    return 1 + quads * (count - 1) + 2 * quads * crossed
+
+
+def layer_table_ns(plan: LayersPlan, tables: LayerTables, device: Device) -> float:
+    """Return what one colour costs out of `tables`, by the map's price of a texture's look-up."""
+    costs = shipped_costs()
+    one = costs.ns_per_colour(device, "films", _TEXTURE)
+    if one is None:  # Python looks up in tables of films alike
+        one = costs.ns_of(device, "films", "table of 2 axes")
+    return one * look_ups(plan, tables)
