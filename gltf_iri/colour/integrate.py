@@ -32,13 +32,19 @@ _VALUES_AT_ONCE: Final = 1 << 16  # keeps temporaries inside a core's cache
 
 
 def integrate_colour(
-    reflectance: Reflectance, count: int, *, white: White, opd_nm: Float64 | None = None
+    reflectance: Reflectance,
+    count: int,
+    *,
+    white: White,
+    opd_nm: Float64 | None = None,
+    is_adaptive: bool = True,
 ) -> Float64:
     """Return linear Rec.709 (count, 3) of `count` reflectance spectra.
 
     A row is finished when doubling the wavelengths moves none of its channels by COLOUR_CONVERGENCE.
 
     opd_nm : (count,) path difference of each row's fringes; no row finishes on fewer nodes than resolve it.
+    is_adaptive : go on in panels where the rule of MAX_DEGREE leaves a row open, or leave it at that.
     Raises UsageError where no number of wavelengths settles a colour.
     """
     opd_nm = np.zeros(count) if opd_nm is None else opd_nm
@@ -49,6 +55,8 @@ def integrate_colour(
         rgb[rows], open_rows = _integrate_block(reflectance, rows, opd_nm[rows], white)
         still_open.append(open_rows)
     rest = np.concatenate([np.zeros(0, dtype=np.intp), *still_open])
+    if not is_adaptive:
+        return rgb
     rgb[rest] = integrate_adaptive(reflectance, rest, white=white, opd_nm=opd_nm[rest])
     return rgb
 

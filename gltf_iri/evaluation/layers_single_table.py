@@ -17,7 +17,7 @@ from gltf_iri.colour.quadrature import colour_rule
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Evaluation
-from gltf_iri.evaluation.layer_spectra import LayerRows
+from gltf_iri.evaluation.layer_spectra import LayerSpectra
 from gltf_iri.evaluation.layers import LayeredSurface, LayerStack, evaluate_layered
 
 __all__ = ["LayersSingleTable", "evaluate_layers_single_table"]
@@ -45,8 +45,7 @@ class LayersSingleTable:
             )
         self._rule = colour_rule(wavelengths + wavelengths % 2, white)
         self._cosines = np.linspace(0.0, 1.0, nodes)
-        self._layers = [LayerRows.of(each, stack.host_ior, ()) for each in stack.layers]
-        self._rows = np.zeros(nodes, dtype=np.intp)
+        self._layers = [LayerSpectra(each, float(stack.host_ior.item())) for each in stack.layers]
 
     def reflected(self, layer: int, cos_h: Float64, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (..., 3), the colour of R_layer(h) Π_{k<layer} T_k(i) T_k(o)."""
@@ -61,12 +60,12 @@ class LayersSingleTable:
     @cached_property
     def _reflecting(self) -> list[Float64]:
         wavelength_nm = self._rule.wavelength_nm
-        return [each.reflectance(self._rows, self._cosines, wavelength_nm) for each in self._layers]
+        return [each.reflectance(self._cosines, wavelength_nm) for each in self._layers]
 
     @cached_property
     def _passing(self) -> list[Float64]:
         wavelength_nm = self._rule.wavelength_nm
-        return [each.transmissivity(self._rows, self._cosines, wavelength_nm) for each in self._layers]
+        return [each.transmissivity(self._cosines, wavelength_nm) for each in self._layers]
 
     def _colour(self, tables: list[Float64], cosines: list[Float64]) -> Float64:
         shape = np.broadcast_shapes(*(np.shape(c) for c in cosines))
