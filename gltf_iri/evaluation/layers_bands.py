@@ -27,7 +27,7 @@ Float64 = NDArray[np.float64]
 LAYER_BANDS: Final = 16
 
 # The rule under the means: wavelengths closer than the resonances beside band gaps are wide, at most mirrors.
-# Against 192 points and degree 4096, 16 stacks of 10 and 20 cells, 32 bands: ΔE 0.02, a tenth of what those err.
+# Against 192 points and degree 4096, 16 stacks of 10 and 20 cells, 32 bands: ΔE 0.02, a tenth of their own.
 _FIRST_DEGREE: Final = 1024
 _LAST_DEGREE: Final = 4096
 _OVERSAMPLED: Final = 6.0
