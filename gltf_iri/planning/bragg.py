@@ -19,9 +19,15 @@ from gltf_iri.planning.verdict import NotDrawn, Skip, Verdict, absent, texture_v
 if TYPE_CHECKING:
     from gltf_iri.asset.document import Document
 
-__all__ = ["bragg_verdicts", "layer_reflects", "period_texel"]
+__all__ = ["bragg_verdicts", "layer_reflects", "period_texel", "verdicts_below"]
 
 _EFFECTS: Final = (Effect.BRAGG, Effect.BRAGG_TEXTURE, Effect.BRAGG_PERIOD_TEXTURE)
+
+# What shapes the reflection of the base's own surface, and nothing below it.
+_OF_THE_SURFACE: Final = (
+    *(Effect.SPECULAR, Effect.SPECULAR_TEXTURE, Effect.SPECULAR_COLOR_TEXTURE),
+    *(Effect.ANISOTROPY, Effect.ANISOTROPY_TEXTURE),
+)
 
 
 def bragg_verdicts(material: Material, folded: Mapping[Effect, str]) -> Iterator[tuple[Effect, Verdict]]:
@@ -43,6 +49,18 @@ def bragg_verdicts(material: Material, folded: Mapping[Effect, str]) -> Iterator
         idle = idle or "minimum and maximum of every layer's period are the same, so it changes nothing"
     effect, everywhere = Effect.BRAGG_PERIOD_TEXTURE, "period texture: the maxima hold everywhere"
     yield effect, texture_verdict(bragg.period_texture, everywhere, idle, folded.get(effect))
+
+
+def verdicts_below(material: Material, judged: Mapping[Effect, Verdict]) -> Iterator[tuple[Effect, Verdict]]:
+    """Yield the verdicts that change where layers stand in place of the whole surface of `material`.
+
+    judged : what the others said, of each effect.
+    """
+    is_whole = material.bragg is not None and material.bragg.factor == 1.0
+    if is_whole and judged[Effect.BRAGG] is None and judged[Effect.BRAGG_TEXTURE] is not None:
+        for effect in _OF_THE_SURFACE:
+            if judged[effect] is None:
+                yield effect, Skip("Bragg layers stand everywhere in place of the surface that it belongs to")
 
 
 def layer_reflects(layer: MirrorLayer, host_ior: float) -> bool:

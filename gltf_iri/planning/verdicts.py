@@ -7,7 +7,7 @@ from typing import Final
 
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
-from gltf_iri.planning.bragg import bragg_verdicts
+from gltf_iri.planning.bragg import bragg_verdicts, verdicts_below
 from gltf_iri.planning.core import core_verdicts
 from gltf_iri.planning.effects import MATERIAL_EFFECTS, Effect
 from gltf_iri.planning.extensions import extension_verdicts
@@ -37,6 +37,7 @@ def material_verdicts(
 ) -> dict[Effect, Verdict]:
     """Return the verdict on each of MATERIAL_EFFECTS, in their order; see `plan_material`."""
     judged = dict(_judged(material, method, reach, way, folded))
+    judged |= dict(verdicts_below(material, judged))
     return {effect: judged[effect] for effect in MATERIAL_EFFECTS}
 
 

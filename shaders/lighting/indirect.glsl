@@ -85,13 +85,15 @@ vec3 image_lighting(Surface s, View w, ImageLight image) {
     float facet_cosine = w.n_dot_v;
 #endif
     Lobe lobe = Lobe(w.n_dot_v, facet_cosine, s.perceptual_roughness, image.dfg.x, image.dfg.y);
-#ifdef HAS_TRANSMISSION
+#if defined(HAS_TRANSMISSION)
     vec3 sent = mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance, image.transmitted));
+#elif defined(BRAGG_WHOLE)
+    vec3 sent = image_on_layers(s, w, image);
 #else
     vec3 sent = mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance));
-#endif
 #ifdef HAS_BRAGG
     sent = mix(sent, image_on_layers(s, w, image), s.bragg_factor);
+#endif
 #endif
 #ifdef HAS_SHEEN
     sent *= sheen_weight(s.sheen_color, image.sheen_albedo);

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -22,6 +23,9 @@ from gltf_iri.rendering.render import Renderer
 from gltf_iri.scene.environment import white
 from gltf_iri.scene.load import Model
 from gltf_iri.scene.model import Camera, Environment, Light, Primitive, Scene
+
+# For the files that tests share.
+sys.path.append(str(Path(__file__).resolve().parent))
 
 
 @dataclass
