@@ -17,19 +17,25 @@ BraggMirror facet_mirror(float host_ior, BraggLayer layer, float cos_theta) {
 // T_N(x) and U_{N−1}(x) of 1 − x and 1 + x, from the angle x is the cosine or hyperbolic cosine of. No loop, other
 // than the doubling of `chebyshev_pair`: llvmpipe ends all loops of a shader after 65535 iterations without a word.
 vec2 chebyshev_angle(vec2 cosine, float cells) {
-    vec2 root = sqrt(max(cosine, 0.0));
-    float turned = 2.0 * cells * quadrant_angle(root.x, root.y);
-    float sine = root.x * root.y;
-    if (sine > 0.0) return vec2(cos(turned), sin(turned) / sine);
-    // In a gap; e^15 is beyond what U reaches at the edge of 10⁶ cells, and all is reflected.
-    float beyond = max(-min(cosine.x, cosine.y), 0.0);
-    float sinh_ = sqrt(beyond * (2.0 + beyond));
-    float grown = beyond + sinh_;
-    float log_ = grown < 0.01 ? grown * (1.0 - grown * (0.5 - grown * (1.0 / 3.0 - 0.25 * grown))) : log(1.0 + grown);
-    float path = min(cells * log_, 15.0);
-    float growth = exp(path);
-    float sinh_n = path < 0.1 ? path * (1.0 + sq(path) * (1.0 / 6.0 + sq(path) / 120.0)) : 0.5 * (growth - 1.0 / growth);
-    vec2 tu = vec2(0.5 * (growth + 1.0 / growth), sinh_ > 0.0 ? sinh_n / sinh_ : cells);
+    // Of |x|: angles near π would lose the digits that those near 0 keep.
+    float near = min(cosine.x, cosine.y);
+    vec2 tu;
+    if (near > 0.0) {
+        vec2 root = sqrt(vec2(near, max(cosine.x, cosine.y)));
+        float turned = 2.0 * cells * quadrant_angle(root.x, root.y);
+        tu = vec2(cos(turned), sin(turned) / (root.x * root.y));
+    } else {
+        // In a gap; e^15 is beyond what U reaches at the edge of 10⁶ cells, and all is reflected.
+        float sinh_ = sqrt(-near * (2.0 - near));
+        float grown = sinh_ - near;
+        float log_ = grown < 0.01 ? grown * (1.0 - grown * (0.5 - grown * (1.0 / 3.0 - 0.25 * grown)))
+                                  : log(1.0 + grown);
+        float path = min(cells * log_, 15.0);
+        float growth = exp(path);
+        float sinh_n = path < 0.1 ? path * (1.0 + sq(path) * (1.0 / 6.0 + sq(path) / 120.0))
+                                  : 0.5 * (growth - 1.0 / growth);
+        tu = vec2(0.5 * (growth + 1.0 / growth), sinh_ > 0.0 ? sinh_n / sinh_ : cells);
+    }
     // T_N(−x) = (−1)^N T_N(x), and U_{N−1} turns its sign where T_N does not.
     bool turns_t = mod(cells, 2.0) > 0.5;
     return cosine.x < cosine.y ? tu : turns_t ? vec2(-tu.x, tu.y) : vec2(tu.x, -tu.y);
