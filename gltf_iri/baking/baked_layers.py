@@ -25,7 +25,8 @@ class BakedLayers:
         B' = B rounded up to fours, what is beyond B is 0.
     first_albedo : (P, C, 4), albedo : (L, P, C, B') ∫ R w dω over the lobe at N·V: what the layer alone sends
         of a white sky, as `first` and `reflected` do of one direction.
-    irradiance : (L, P, B') 2∫ T c dc, what of a white sky passes the layer.
+    irradiance : (L, P, B') what of a white sky that has passed those above passes the layer, too: the product
+        over all layers is the mean of ∏ T_k over the sky, as the coating lets it in.
     weights : (B', 3) the bands' weights, linear Rec.709, columns sum to 1; 3 × 3 unity and 0 for colours.
     filled_in_s : seconds that filling took, now or when it was put into the cache.
     is_cached : True where it was read from the cache.

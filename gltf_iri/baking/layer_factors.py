@@ -16,12 +16,14 @@ from numpy.typing import NDArray
 from gltf_iri.baking.facet_matrix import chebyshev_cosines, chebyshev_moments, terms_for, to_coefficients
 from gltf_iri.baking.layer_spectra import Weighing, layer_spectra
 from gltf_iri.optics.layer_lobe import layer_lobe
+from gltf_iri.optics.layer_stack import coating_transmittance, cosine_in_host
 from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN
 from gltf_iri.optics.quadrature import gauss_unit
 from gltf_iri.optics.rough_bragg import filter_nodes
 from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
 
 __all__ = ["LayerFactors", "SkyFactors", "layer_factors", "passing_moments", "sky_factors"]
+__all__ += ["sky_nodes"]
 
 Float64 = NDArray[np.float64]
 
@@ -52,12 +54,13 @@ class LayerFactors:
 class SkyFactors:
     """What a layer makes of a white sky, as `BakedLayers` has it.
 
-    albedo : (p, c, B); colour : (p, c, 3) of it; irradiance : (p, B).
+    albedo : (p, c, B); colour : (p, c, 3) of it.
+    passed : (p, s, B), what passes of light from the directions of `sky_nodes`.
     """
 
     albedo: Float64
     colour: Float64
-    irradiance: Float64
+    passed: Float64
 
 
 def layer_factors(
@@ -89,8 +92,21 @@ def layer_factors(
     return LayerFactors(reflected, direct[..., bands:], transmitted, series)
 
 
-def sky_factors(layer: PlannedLayer, factors: LayerFactors, cosines: Float64) -> SkyFactors:
-    """Return what the layer of `factors` makes of a white sky at the cosines (c,)."""
+def sky_nodes(host_ior: float) -> tuple[Float64, Float64]:
+    """Return cosines in the host and weights (s,) of a mean over a white sky, as the coating lets it in.
+
+    2∫ f T c dc / 2∫ T c dc over the cosine c outside, T the coating's transmittance.
+    """
+    nodes, weights = gauss_unit(_SKY_NODES)
+    entering = nodes * weights * coating_transmittance(host_ior, nodes)
+    return cosine_in_host(host_ior, nodes), np.asarray(entering / np.sum(entering))
+
+
+def sky_factors(layer: PlannedLayer, factors: LayerFactors, cosines: Float64, sky: Float64) -> SkyFactors:
+    """Return what the layer of `factors` makes of a white sky at the cosines (c,).
+
+    sky : the cosines (s,) of `sky_nodes`.
+    """
     series = factors.series
     bands = factors.reflected.shape[-1]
     moments = np.concatenate(
@@ -103,13 +119,8 @@ def sky_factors(layer: PlannedLayer, factors: LayerFactors, cosines: Float64) ->
         ]
     )
     albedo = np.einsum("cj,pjb->pcb", moments, series)
-    nodes, weights = gauss_unit(_SKY_NODES)
-    passed = _passed(nodes, layer.alpha, series[..., :bands])
-    return SkyFactors(
-        albedo[..., :bands],
-        albedo[..., bands:],
-        np.asarray(np.einsum("c,pcb->pb", 2.0 * nodes * weights, passed)),
-    )
+    passed = _passed(sky, layer.alpha, series[..., :bands])
+    return SkyFactors(albedo[..., :bands], albedo[..., bands:], passed)
 
 
 def _passed(cosines: Float64, alpha: float, series: Float64) -> Float64:

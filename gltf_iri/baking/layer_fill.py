@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.baking.cache import TableCache
 from gltf_iri.baking.layer_cache import read_layers, write_layers
-from gltf_iri.baking.layer_factors import LayerFactors, SkyFactors, layer_factors, sky_factors
+from gltf_iri.baking.layer_factors import LayerFactors, SkyFactors, layer_factors, sky_factors, sky_nodes
 from gltf_iri.baking.layer_spectra import weighing_of
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
@@ -83,17 +83,23 @@ def filled_layers(plan: LayersPlan, white: White, *, has_sky: bool = True) -> Ba
     cosines, texel = cosine_nodes(tables.cos_nodes), texel_nodes(plan, tables.period_nodes)
     dtype = np.dtype(tables.texel)
     kept: dict[str, list[Floats]] = {name: [] for name in ("reflected", "transmitted", "albedo")}
+    sky_cosines, sky_weights = sky_nodes(plan.host_ior)
+    through = np.ones((len(texel), len(sky_cosines), 1))  # (P, s, B), what passes all layers so far
     irradiance = []
     first: list[Floats] = []
     for layer in plan.layers:
         factors = layer_factors(plan, layer, texel, cosines, weighing)
-        sky = sky_factors(layer, factors, cosines) if has_sky else _no_sky(factors)
+        sky = sky_factors(layer, factors, cosines, sky_cosines) if has_sky else _no_sky(factors)
         if not first:
             first = [_fours(each).astype(dtype) for each in (factors.colour, sky.colour)]
         for name, values in zip(kept, (factors.reflected, factors.transmitted, sky.albedo), strict=True):
             kept[name].append(_fours(values).astype(dtype))
+        above, through = through, through * sky.passed
+        of_above, passed = (np.einsum("s,psb->pb", sky_weights, each) for each in (above, through))
+        # Where nothing reaches the layer it may pass what it will.
+        share = np.divide(passed, of_above, out=np.zeros_like(passed), where=of_above > 0.0)
         # As the cache keeps it.
-        irradiance.append(_fours(sky.irradiance).astype(np.float32).astype(np.float64))
+        irradiance.append(_fours(share).astype(np.float32).astype(np.float64))
     return BakedLayers(
         plan=plan,
         first=first[0],
@@ -112,7 +118,7 @@ def _no_sky(factors: LayerFactors) -> SkyFactors:
     return SkyFactors(
         np.zeros_like(factors.reflected),
         np.zeros_like(factors.colour),
-        np.zeros_like(factors.reflected[:, 0]),
+        np.zeros((len(factors.reflected), 1, factors.reflected.shape[-1])),
     )
 
 

@@ -130,7 +130,7 @@ def plan_material(
         material=material,
         way=way,
         grey=_grey(reach, verdicts) if film is None else frozenset(),
-        layers=layers or plan_layers(material, method=layers_method, texel=texel),
+        layers=layers or plan_layers(material, method=layers_method, texel=texel, folded=folded),
     )
 
 

@@ -55,14 +55,16 @@ def plan_layers(
     delta_e: float | None = None,
     ns_per_colour: float = 0.0,
     reason: str = "",
+    folded: Mapping[Effect, str] = MappingProxyType({}),
 ) -> LayersPlan | None:
     """Return what of the layers of `material` is simulated; None where none are drawn (`bragg_verdicts`).
 
     method : of the domain "layers"; None leaves the choice to the plan.
     texel : what the texture of periods holds (`period_texel`); None where nobody knows.
     tables : their shape; None for what the method is drawn from without a budget.
+    folded : reasons for what `simplified` has taken out of `material`.
     """
-    bragg, verdicts = material.bragg, dict(bragg_verdicts(material, {}))
+    bragg, verdicts = material.bragg, dict(bragg_verdicts(material, folded))
     if bragg is None or material.unlit is not None or verdicts[Effect.BRAGG] is not None:
         return None
     if verdicts[Effect.BRAGG_PERIOD_TEXTURE] is not None:

@@ -101,3 +101,12 @@ def test_periods_run_along_the_texels_that_there_are(images):
     assert period_texel(made(replace(ONE, period_texture=texture)), images) == Span(0.2, 0.4)
     assert period_texel(made(replace(ONE, period_texture=texture)), None) == Span(0.0, 1.0)
     assert period_texel(made(), images) == Span.at(1.0)
+
+
+def test_layers_are_planned_wherever_they_are_drawn(images):
+    # All texels are metal: nothing is transmitted, whatever the factor says.
+    pbr = MetallicRoughness(metallic_roughness_texture=images.add([[(0, 51, 255, 0), (0, 99, 255, 0)]]))
+    material = made(pbr=pbr, transmission=Transmission(1.0))
+    (plan,) = plan_materials([material], document=images)
+    assert plan.calls_for(Effect.BRAGG) and plan.layers is not None
+    assert plan_material(material, 0).layers is None
