@@ -72,6 +72,22 @@ class LayersSingle:
             *shape, 3
         )
 
+    def entering(self, cos_i: Float64) -> Float64:
+        """Return (..., 3), the colour of Π_k T_k(i) over all layers: of what goes in for good."""
+        count = len(self._stack.layers)
+        shape, rows = self._rows(count, (cos_i,))
+        passing = [self._passing_rows(k, shape, rows[0], rows[0]) for k in range(count)]
+
+        def spectrum(numbers: Rows, wavelength_nm: Float64) -> Float64:
+            product = np.ones((len(numbers), wavelength_nm.shape[-1]))
+            for each in passing:
+                product *= each.ways(numbers, wavelength_nm)[0]
+            return product
+
+        return integrate_colour(spectrum, len(rows[0]), white=self._white, is_adaptive=False).reshape(
+            *shape, 3
+        )
+
     def _rows(self, count: int, cosines: tuple[Float64, ...]) -> tuple[tuple[int, ...], list[Float64]]:
         """Return the broadcast shape of the first `count` layers and `cosines`, and these as rows (r,)."""
         stack = self._stack
