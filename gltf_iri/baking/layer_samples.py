@@ -18,13 +18,13 @@ from gltf_iri.baking.layer_factors import passing_moments
 from gltf_iri.baking.layer_spectra import Weighing, layer_rule, layer_spectra, weighing_of
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.colour.quadrature import ColourRule
-from gltf_iri.colour.quantile import SHARE, bounds
+from gltf_iri.colour.quantile import bounds
 from gltf_iri.colour.spaces import White
 from gltf_iri.optics.layer_stack import sight_of
 from gltf_iri.optics.microfacet import ALPHA_MIN
 from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
 
-__all__ = ["COLOURS", "LayerSamples", "p95_below", "p95_of", "sampled_layers"]
+__all__ = ["COLOURS", "LayerSamples", "p95_below", "p95_guess", "sampled_layers"]
 
 Float64 = NDArray[np.float64]
 
@@ -33,6 +33,9 @@ COLOURS: Final = 0
 
 _TERMS: Final = 384  # of the series over the cosine: resonances beside band gaps are narrow
 _POSES_AT_ONCE: Final = 256  # bounds memory: each has some spectra of up to 8192 values
+
+# Of 1024 samples so many lie below what surely lies above 0.95 of all.
+_BOUND_SHARE: Final = 0.97
 
 # Colours (n, 3): each layer's reflection, outermost first, and at the end what passes all, over a base.
 Terms = tuple[Float64, ...]
@@ -58,10 +61,10 @@ def p95_below(found: Terms, truth: Terms) -> float:
     return max(bounds(delta_e_2000(a, b))[1] for a, b in zip(found, truth, strict=True))
 
 
-def p95_of(found: Terms, truth: Terms) -> float:
-    """Return the p95 of CIEDE2000 at these samples themselves, the greatest of the terms'."""
+def p95_guess(found: Terms, truth: Terms) -> float:
+    """Return about what `p95_below` will be at more samples, the greatest of the terms'."""
     errors = (delta_e_2000(a, b) for a, b in zip(found, truth, strict=True))
-    return max(float(np.quantile(each, SHARE)) for each in errors)
+    return max(float(np.quantile(each, _BOUND_SHARE)) for each in errors)
 
 
 def sampled_layers(
@@ -99,19 +102,19 @@ def sampled_layers(
 
 @dataclass(frozen=True, slots=True)
 class _Facets:
-    """One layer at one period: spectra by `rule`, and (terms, k) of the series of R over the cosine."""
+    """One layer at one period: spectra by `rule`, and those (terms, k) at `chebyshev_cosines`."""
 
     plan: LayersPlan
     layer: PlannedLayer
     texel: Float64
     rule: ColourRule
-    series: Float64
+    values: Float64
 
     @classmethod
     def of(cls, plan: LayersPlan, layer: PlannedLayer, texel: Float64, white: White) -> _Facets:
         rule = layer_rule(plan, white)
         values = layer_spectra(plan, layer, texel, chebyshev_cosines(_TERMS), rule)
-        return cls(plan, layer, texel, rule, to_coefficients(_TERMS) @ values)
+        return cls(plan, layer, texel, rule, values)
 
     def reflected(self, cosine: Float64) -> Float64:
         """Return R (n, k)."""
@@ -122,7 +125,7 @@ class _Facets:
         if self.layer.alpha <= ALPHA_MIN:
             return 1.0 - self.reflected(cosine)
         moments = passing_moments(cosine, self.layer.alpha, _TERMS)
-        return np.asarray(moments[:, :1] - moments @ self.series)
+        return np.asarray(moments[:, :1] - (moments @ to_coefficients(_TERMS)) @ self.values)
 
 
 def _colours(
@@ -134,27 +137,34 @@ def _colours(
 ) -> tuple[Terms, dict[int, Terms]]:
     """Return the truth, and what each weighing makes of it."""
     cos_h, cos_i, cos_o = cosines
+    count = len(cos_h)
+    # Those of all weighings side by side.
+    shares = np.concatenate(
+        [np.zeros((len(facets[0].values.T), 0)), *(w.shares for w in weighings.values())], 1
+    )
+    ends = np.cumsum([w.shares.shape[1] for w in weighings.values()])
     truth: list[Float64] = []
     found: dict[int, list[Float64]] = {b: [] for b in weighings}
-    through, by_bands = np.ones(1), dict.fromkeys(weighings, np.ones(1))
+
+    def put(spectra: Float64, means: Float64) -> None:
+        truth.append(spectra @ facets[0].rule.weights)
+        for (b, weighing), part in zip(weighings.items(), np.split(means, ends[:-1], axis=1), strict=False):
+            found[b].append(part @ weighing.weights)
+
+    through, means_through = np.ones((count, 1)), np.ones((count, shares.shape[1]))
     for number, each in enumerate(facets):
-        reflected, weights = each.reflected(cos_h), each.rule.weights
-        truth.append((reflected * through) @ weights)
-        for b, weighing in weighings.items():
-            means = (reflected @ weighing.shares) * by_bands[b]
-            found[b].append(means @ weighing.weights if number else truth[0])
+        reflected = each.reflected(cos_h)
+        put(reflected * through, (reflected @ shares) * means_through)
         if number == len(facets) - 1 and not has_base:
             break
         for cosine in (cos_i, cos_o):
             passed = each.passed(cosine)
             through = through * passed
-            for b, weighing in weighings.items():
-                by_bands[b] = by_bands[b] * (passed @ weighing.shares)
+            means_through = means_through * (passed @ shares)
     if has_base:
-        truth.append(through @ facets[0].rule.weights)
-        for b, weighing in weighings.items():
-            found[b].append(by_bands[b] @ weighing.weights)
-    return tuple(truth), {b: tuple(terms) for b, terms in found.items()}
+        put(through, means_through)
+    # Nothing attenuates the first layer's reflection, whose colour is kept.
+    return tuple(truth), {b: (truth[0], *terms[1:]) for b, terms in found.items()}
 
 
 def _joined(parts: Sequence[Terms]) -> Terms:

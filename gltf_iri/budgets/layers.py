@@ -7,16 +7,12 @@ against `layers-single` lies below, over poses whose cosines are uniform (`gltf_
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, replace
 from typing import Final
 
-import numpy as np
-from numpy.typing import NDArray
-
-from gltf_iri.baking.layer_resolution import LayerFit, fit_layer_tables
+from gltf_iri.baking.layer_resolution import fit_layer_tables
 from gltf_iri.budgets.search import check_budget, figure
-from gltf_iri.colour.spaces import WHITES, Light, White
+from gltf_iri.colour.spaces import WHITES, Light
 from gltf_iri.errors import UsageError
 from gltf_iri.planning.costs import Device, shipped_costs
 from gltf_iri.planning.layer_plan import LayersPlan, LayerTables
@@ -24,8 +20,6 @@ from gltf_iri.planning.method import truth_of
 from gltf_iri.tolerances import GLSL_FILM_DELTA_E
 
 __all__ = ["AskedOfLayers", "choose_layers", "layer_table_ns", "look_ups"]
-
-Float64 = NDArray[np.float64]
 
 _TEXTURE: Final = "texture"  # what the map of costs calls a look-up in a texture
 
@@ -57,13 +51,15 @@ def choose_layers(plan: LayersPlan, asked: AskedOfLayers, subject: str) -> Layer
             reason="the truth itself, as a budget of 0 asks",
         )
     floor = GLSL_FILM_DELTA_E if asked.device == "glsl" else 0.0
-    white: White = "D65" if asked.white == "D65" else "E"
-    fit = LayerFit(None, math.inf)
-    if asked.white in WHITES and budget > floor:
-        fit = fit_layer_tables(plan, budget - floor, white=white)
-    if fit.tables is None:
+    if isinstance(asked.white, Light) or asked.white not in WHITES:
         raise UsageError(
-            f"No tables of layers keep ΔE {budget:g} for {subject}: the best err by {figure(fit.best)}."
+            f"Tables of layers are filled under {' or '.join(WHITES)}; ask for 0, the truth itself."
+        )
+    # What no tables keep is asked for all the same, so that the error names the best.
+    fit = fit_layer_tables(plan, max(budget - floor, 0.5 * budget), white=asked.white)
+    if fit.tables is None or fit.tables.delta_e + floor > budget:
+        raise UsageError(
+            f"No tables of layers keep ΔE {budget:g} for {subject}: the best err by about {figure(fit.best)}."
             " Ask for more, or for 0, the truth itself."
         )
     tables = fit.tables

@@ -7,12 +7,15 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from gltf_iri.budgets.choose import Asked, choose_way
+from gltf_iri.budgets.layers import AskedOfLayers, choose_layers
 from gltf_iri.budgets.search import Chosen, check_budget
 from gltf_iri.colour.spaces import Light
 from gltf_iri.material.material import Material
+from gltf_iri.planning.bragg import period_texel
 from gltf_iri.planning.costs import Device
 from gltf_iri.planning.decide import complete_plans, plan_material
 from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.material_reach import ColourSpans, material_reach, vertex_colour_spans
 from gltf_iri.planning.permutation import shines
@@ -39,9 +42,10 @@ def plans_within(
     with_unused: bool = False,
     advance: Callable[[], None] = lambda: None,
 ) -> tuple[MaterialPlan, ...]:
-    """Return the plan of each material of `model` with the cheapest way to its film that keeps `budget`.
+    """Return the plan of each material of `model` with the cheapest way to its colours that keeps `budget`.
 
-    Materials of equal reach share one choice. At the end stands what `complete_plans` adds for `scene`.
+    Materials of equal reach, or of equal layers, share one choice. At the end stands what `complete_plans`
+    adds for `scene`.
 
     scene : its lights and its vertices' colours count, and materials that it does not use get no way unless
         `with_unused`; None where there is none.
@@ -55,6 +59,7 @@ def plans_within(
     met = {} if scene is None else vertex_colour_spans(scene)
     lamps = 0 if scene is None else sum(shines(light) for light in scene.lights)
     chosen: dict[tuple[Reach, Asked], Chosen] = {}
+    layers: list[tuple[LayersPlan, LayersPlan]] = []
     plans = []
     for index, material in enumerate(model.materials):
         if used is not None and index not in used:
@@ -64,7 +69,15 @@ def plans_within(
                 budget, size_pixels * max(lamps + has_image_light, 1), device, white, has_image_light
             )
             plans.append(
-                plan_within(material, index, asked, model.document, met.get(index), already_chosen=chosen)
+                plan_within(
+                    material,
+                    index,
+                    asked,
+                    model.document,
+                    met.get(index),
+                    already_chosen=chosen,
+                    chosen_layers=layers,
+                )
             )
         advance()
     return tuple(plans) if scene is None else complete_plans(plans, scene)
@@ -78,17 +91,28 @@ def plan_within(
     vertex_colours: ColourSpans | None = None,
     *,
     already_chosen: dict[tuple[Reach, Asked], Chosen] | None = None,
+    chosen_layers: list[tuple[LayersPlan, LayersPlan]] | None = None,
 ) -> MaterialPlan:
-    """Return the plan of one material with the cheapest way to its film that keeps `asked.budget`.
+    """Return the plan of one material with the cheapest way to its film or layers that keeps `asked.budget`.
 
     document : of the material's textures; without one they may hold anything.
-    already_chosen : what other materials were given, which is read and written.
+    already_chosen, chosen_layers : what other materials were given, which is read and written.
 
-    Raises UsageError as `choose_way`.
+    Raises UsageError as `choose_way` and `choose_layers`.
     """
     drawn, folded = (material, {}) if document is None else simplified(material, document)
     reach = material_reach(drawn, document, vertex_colours)
-    plan = plan_material(drawn, index, reach=reach, folded=folded)
+    plan = plan_material(drawn, index, reach=reach, texel=period_texel(drawn, document), folded=folded)
+    subject = f"material '{material.name or index}'"
+    if plan.layers is not None:  # on such a material no film is drawn
+        known_layers = [] if chosen_layers is None else chosen_layers
+        found = next((after for before, after in known_layers if before == plan.layers), None)
+        if found is None:
+            found = choose_layers(
+                plan.layers, AskedOfLayers(asked.budget, asked.device, asked.white), subject
+            )
+            known_layers.append((plan.layers, found))
+        return replace(plan, layers=found)
     if reach is None or not plan.calls_for(Effect.IRIDESCENCE):
         return plan
     asked = replace(
@@ -98,9 +122,9 @@ def plan_within(
     )
     known = {} if already_chosen is None else already_chosen
     if (reach, asked) not in known:
-        known[reach, asked] = choose_way(reach, asked, f"material '{material.name or index}'")
-    found = known[reach, asked]
-    return plan_material(drawn, index, reach=reach, way=found.way, way_reason=found.reason, folded=folded)
+        known[reach, asked] = choose_way(reach, asked, subject)
+    way = known[reach, asked]
+    return plan_material(drawn, index, reach=reach, way=way.way, way_reason=way.reason, folded=folded)
 
 
 def _bare_at_grazing(material: Material) -> float | None:

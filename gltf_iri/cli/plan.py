@@ -17,6 +17,7 @@ from gltf_iri.cli.common import (
     print_json,
     print_table,
 )
+from gltf_iri.cli.layers import layer_rows
 from gltf_iri.cli.picture_options import SIZE
 
 if TYPE_CHECKING:
@@ -28,7 +29,9 @@ __all__ = ["command"]
 
 @click.command(name="plan")
 @file_argument
-@click.option("--method", metavar="NAME", help="Film method to plan for; left out, the plan chooses.")
+@click.option(
+    "--method", metavar="NAME", help="Method to plan films or layers for; left out, the plan chooses."
+)
 @budget_option
 @click.option(
     "--size", type=SIZE, default="640x480", show_default=True, help="Size of the picture a budget is for."
@@ -121,6 +124,9 @@ def _rows(plan: MaterialPlan, saved: Mapping[str, float]) -> Iterator[Sequence[s
     if plan.method is not None:
         yield "", "method", f"{plan.method} ({plan.method_reason})"
         for what, told in way_rows(plan):
+            yield "", what, told
+    if plan.layers is not None:
+        for what, told in layer_rows(plan.layers):
             yield "", what, told
     for effect, reason in plan.skipped.items():
         if effect not in plan.absent:
