@@ -22,6 +22,7 @@ from gltf_iri.colour.spaces import White
 from gltf_iri.errors import MissingCapabilityError, UsageError
 from gltf_iri.evaluation.bloch import bloch_table
 from gltf_iri.evaluation.landmarks import cumulative_table
+from gltf_iri.evaluation.layers_bands import LAYER_BANDS
 from gltf_iri.planning.method import ParameterValue
 from gltf_iri.rendering.line_words import line_words
 from gltf_iri.rendering.spread_table import film_sensitivity_spread
@@ -93,7 +94,7 @@ def _spectral_rule(white: White, **parameters: ParameterValue) -> Float32:
     return rows
 
 
-def _layer_bands(white: White, bands: int = 16, **parameters: ParameterValue) -> Float32:
+def _layer_bands(white: White, bands: int = LAYER_BANDS, **parameters: ParameterValue) -> Float32:
     """Return (rows, SPECTRAL_COARSE_DEGREE + 4, 4): four bands a row, the last filled up with 0.
 
     For each wavelength of the coarse rule what it adds to the means, then the weights in red, green, blue.

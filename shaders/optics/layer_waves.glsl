@@ -58,8 +58,8 @@ vec4 facet_reflectance(BraggMirror mirror, int quad) {
 
 // R(λ, θ) where `reflects`, else T(λ, θ) = ∫ (1 − R(λ, θ_d)) F_α dθ_d; one loop for both, as compilers copy functions
 // Fourneau et al. 2024, Eq. 28
-void layer_spectrum(
-    out vec4 spectrum[LAYER_QUADS_MAX], float host_ior, BraggLayer layer, float cos_theta, bool reflects) {
+void layer_spectrum(out vec4 spectrum[LAYER_QUADS_MAX], float host_ior, BraggLayer layer, float cos_theta,
+                    bool reflects) {
     int quads = layer_quads();
     for (int quad = 0; quad < quads; ++quad) spectrum[quad] = vec4(0.0);
     FilterLight light = filter_light(cos_theta, reflects ? 0.0 : layer.alpha);
@@ -75,9 +75,8 @@ void layer_spectrum(
 }
 
 // Of the factors of R_above(h) Π_{k<above} T_k(i) T_k(o): 0 is R, the others are T, of light and viewer in turn.
-void path_factor(
-    out vec4 spectrum[LAYER_QUADS_MAX], int factor, float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int above,
-    float cos_h, float cos_i, float cos_o) {
+void path_factor(out vec4 spectrum[LAYER_QUADS_MAX], int factor, float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX],
+                 int above, float cos_h, float cos_i, float cos_o) {
     int layer = factor == 0 ? above : (factor - 1) / 2;
     float cosine = factor == 0 ? cos_h : (factor & 1) == 1 ? cos_i : cos_o;
     layer_spectrum(spectrum, host_ior, layers[layer], cosine, factor == 0);

@@ -138,7 +138,7 @@ class Case:
 class FixedRules:
     """`LayerColours` by rules that do not refine: FILTER_POINTS a panel, `rule` for what passes layers.
 
-    fine : the rule of what nothing attenuates; means : from factors (rows, wavelengths of `rule`) to colours;
+    fine : the rule of what is reflected; means : instead, colours of factors (rows, wavelengths of `rule`);
     node_step_rad : by how much the angles of the filter's facets are off.
     """
 
@@ -151,16 +151,23 @@ class FixedRules:
         node_step_rad: float = 0.0,
     ) -> None:
         self._stack, self._rule, self._fine, self._step_rad = stack, rule, fine, node_step_rad
-        self._means = means or (lambda factors: np.prod(factors, axis=0) @ rule.weights)
+        self._means = means
 
     def reflected(self, layer: int, cos_h: Float64, cos_i: Float64, cos_o: Float64) -> Float64:
         if layer == 0:
             return self.at(0, cos_h[:, None], self._fine)[:, 0] @ self._fine.weights
-        own = self.at(layer, cos_h[:, None], self._rule)[:, 0]
-        return self._means([own, *self._through(layer, cos_i, cos_o)])
+        through = self._through(layer, cos_i, cos_o)
+        if self._means is not None:
+            return self._means([self.at(layer, cos_h[:, None], self._rule)[:, 0], *through])
+        # Of each fourth wavelength, straight between them.
+        passed, place = np.prod(through, axis=0), np.arange(len(self._fine.wavelength_nm))
+        before, after = place // 4, np.minimum(place // 4 + 1, passed.shape[1] - 1)
+        passed = passed[:, before] + 0.25 * (place % 4) * (passed[:, after] - passed[:, before])
+        return (self.at(layer, cos_h[:, None], self._fine)[:, 0] * passed) @ self._fine.weights
 
     def passed(self, cos_i: Float64, cos_o: Float64) -> Float64:
-        return self._means(self._through(len(self._stack.layers), cos_i, cos_o))
+        through = self._through(len(self._stack.layers), cos_i, cos_o)
+        return np.prod(through, axis=0) @ self._rule.weights if self._means is None else self._means(through)
 
     def _through(self, above: int, cos_i: Float64, cos_o: Float64) -> list[Float64]:
         factors = []
