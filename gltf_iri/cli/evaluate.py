@@ -11,6 +11,7 @@ from gltf_iri.backends import BACKENDS
 from gltf_iri.cli.budget import budget_option, check_choice, nanoseconds
 from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
 from gltf_iri.cli.evaluate_array import DEFAULT_COLUMNS, array_to_array
+from gltf_iri.cli.evaluate_layers import from_layers, layer_options, print_layers, refuse_layer_options
 from gltf_iri.cli.evaluate_subject import (
     DEFAULT_BASE,
     DEFAULT_FILM,
@@ -21,7 +22,13 @@ from gltf_iri.cli.evaluate_subject import (
     from_parameters,
 )
 from gltf_iri.cli.value_types import Numbers, Setting
-from gltf_iri.planning.method import DEFAULT_METHOD, DEFAULT_MIRROR_METHOD, METHODS, parameters_text
+from gltf_iri.planning.method import (
+    DEFAULT_LAYERS_METHOD,
+    DEFAULT_METHOD,
+    DEFAULT_MIRROR_METHOD,
+    METHODS,
+    parameters_text,
+)
 
 if TYPE_CHECKING:
     from gltf_iri.planning.method import Parameter
@@ -82,11 +89,13 @@ def _allowed(parameter: Parameter) -> str:
     metavar="N1,N2,D1,D2,CELLS",
     help="Mirror instead of a film: indices, thicknesses in nanometres, n1 first.",
 )
-@click.option("--host", "host_ior", type=float, help="Index outside the mirror [n1].")
+@layer_options
+@click.option("--host", "host_ior", type=float, help="Index outside the mirror or layers [n1].")
 @click.option(
     "--method",
     metavar="NAME",
-    help=f"One of {', '.join(METHODS)} [{DEFAULT_METHOD}; for mirrors {DEFAULT_MIRROR_METHOD}].",
+    help=f"One of {', '.join(METHODS)} [{DEFAULT_METHOD}; for mirrors {DEFAULT_MIRROR_METHOD}; "
+    f"for layers {DEFAULT_LAYERS_METHOD}].",
 )
 @budget_option
 @click.option(
@@ -133,17 +142,21 @@ def command(
     as_json: bool,
     **subject: Any,
 ) -> None:
-    """Print the film's or mirror's reflectance colour, linear Rec.709, at the outside angle's cosines.
+    """Print reflectance colours of a film, mirror or layers, linear Rec.709, at cosines of the outside angle.
 
     Either of a material of FILE, at its thickness maximum and without its textures, or of a film or a Bragg
-    mirror given by options; or of all the films in a .npy file, into another. Colours are not cut to the
-    gamut: the truth may be negative in a channel.
+    mirror given by options; or of all the films in a .npy file, into another. Of rough layers, what they send
+    back over all directions, and what they transmit and absorb. Colours are not cut to the gamut: the truth
+    may be negative in a channel.
     """
     parameters = dict(settings)
     if len(parameters) < len(settings):
         raise click.UsageError("--set names a parameter twice; give each once")
     check_choice(budget, method=method, set=settings)
     how = How(method, white, backend, parameters, budget)
+    subject["layer"] = subject["layer"] or None
+    if subject["layer"] is None:
+        refuse_layer_options(subject)
     if source is not None:
         if layered or click.get_current_context().get_parameter_source("cosines") is not _BY_DEFAULT:
             raise click.UsageError("--in has its cosines in a column, and no --layered")
@@ -156,6 +169,10 @@ def command(
         result = from_file(file, material, cosines, how, layered, subject)
     elif material is not None or layered:
         raise click.UsageError("--material and --layered need a FILE")
+    elif subject["layer"] is not None:
+        layers = from_layers(cosines, how, subject)
+        (print_json if as_json else print_layers)(layers)
+        return
     elif subject["bragg"] is not None:
         result = from_mirror(cosines, how, subject)
     else:

@@ -87,8 +87,8 @@ def _films(
     """Return what the rows are films of; click.UsageError where a column and an option say the same."""
     from gltf_iri.arrays.films import ArrayFilms, lobe_of
 
-    if given["bragg"] is not None or given["host_ior"] is not None:
-        raise click.UsageError("--in reads films; a Bragg mirror is evaluated at --cos")
+    if any(given[name] is not None for name in ("bragg", "host_ior", "layer")):
+        raise click.UsageError("--in reads films; mirrors and layers are evaluated at --cos")
     asked = {name for name, value in given.items() if value is not None}
     for column in columns:
         option = _OPTION_OF.get(column)

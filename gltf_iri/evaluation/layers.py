@@ -242,7 +242,8 @@ def brdf(stack: LayerStack, pose: Pose, colours: LayerColours) -> Float64:
     passes. Layers of α = 0 mirror light like the coating and have no BRDF: infinite at the mirror direction.
     """
     sight = sight_of(stack.host_ior, pose.cos_theta_i, pose.cos_theta_o, pose.cos_phi)
-    sent = np.sum(layer_terms(stack, sight, colours), axis=0)
+    # Not np.sum: terms of arrays broadcast, each in a shape of its own.
+    sent = sum(layer_terms(stack, sight, colours), start=np.zeros(3))
     return np.asarray(sight.passage[..., None] * sent)
 
 

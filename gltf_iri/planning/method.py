@@ -14,11 +14,13 @@ from gltf_iri.errors import UsageError
 from gltf_iri.planning.layer_methods import LAYER_METHODS
 from gltf_iri.planning.method_type import Domain, Method, Parameter, ParameterValue
 
-__all__ = ["DEFAULT_METHOD", "DEFAULT_MIRROR_METHOD", "METHODS", "Domain", "Method", "Parameter"]
+__all__ = ["DEFAULT_LAYERS_METHOD", "DEFAULT_METHOD", "DEFAULT_MIRROR_METHOD", "METHODS", "Domain"]
+__all__ += ["Method", "Parameter"]
 __all__ += ["ParameterValue", "find_method", "method_names", "parameters_text", "truth_of"]
 
 DEFAULT_METHOD: Final = "khr-guarded"
 DEFAULT_MIRROR_METHOD: Final = "yeh-spectral"
+DEFAULT_LAYERS_METHOD: Final = "layers-single"
 
 # Bounds and words of the formulas stand here a second time, and a test holds both equal: the formulas import
 # numpy, for which `--help` cannot wait.
