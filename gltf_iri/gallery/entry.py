@@ -94,7 +94,9 @@ def make_entry(renderer: Renderer, file: Path, setup: Setup) -> Entry:
         layer_tables = bake_layer_plans(entry.plans)
         frame = renderer.render(*arguments, size=setup.size, layer_tables=layer_tables)
         entry = replace(entry, picture=webp_bytes(display_pixels(frame.rgba, exposure, TONEMAP)))
-        comparison = compare(renderer, *arguments, size=setup.size, exposure=exposure)
+        comparison = compare(
+            renderer, *arguments, size=setup.size, exposure=exposure, layer_tables=layer_tables
+        )
         notes = dict.fromkeys((*comparison.notes, *frame.notes))
         return replace(entry, comparison=comparison, notes=tuple(notes))
     except GltfIriError as error:
