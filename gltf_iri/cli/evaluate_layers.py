@@ -45,6 +45,7 @@ def layer_options(command: Any) -> Any:
 
 def from_layers(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> dict[str, Any]:
     """Return what `evaluate --json` prints of the layers `given`; a film's options are refused."""
+    from gltf_iri.colour.spaces import WHITES
     from gltf_iri.errors import UsageError
     from gltf_iri.evaluation.layer_energy import stack_energy
     from gltf_iri.evaluation.layer_methods import layer_colours
@@ -72,7 +73,8 @@ def from_layers(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> 
     method = find_method(how.method or DEFAULT_LAYERS_METHOD, "layers")
     backend = choose_backend(how.backend, len(cosines), method.backends, method.name)
     colours = layer_colours(method.name, stack, white=how.white, parameters=how.parameters)
-    energy = stack_energy(stack, Pose.of(cosines, 1.0).cos_theta_i, colours, how.white)
+    white = next(name for name in WHITES if name == how.white)  # `layer_colours` knows it
+    energy = stack_energy(stack, Pose.of(cosines, 1.0).cos_theta_i, colours, white)
     return {
         "method": method.name,
         "white": how.white,

@@ -135,7 +135,7 @@ def _of_facets(host: float, inside: Float64, alpha: float, number: int, colours:
     cos_h, cos_o, weights = sent_facets(inside, alpha, slopes=_STACK_SLOPES, turns=_STACK_TURNS)
     cos_i = np.broadcast_to(inside[:, None], cos_h.shape)
     colour = colours.reflected(number, cos_h, cos_i, cos_o)
-    return np.einsum("nq,nqc->nc", weights * _leaving(host, cos_o), colour)
+    return np.asarray(np.einsum("nq,nqc->nc", weights * _leaving(host, cos_o), colour))
 
 
 def _of_base(stack: LayerStack, host: float, inside: Float64, colours: LayerColours) -> Float64:

@@ -88,7 +88,7 @@ def test_what_a_stack_sends_is_its_brdf_over_the_hemisphere() -> None:
     for host, bound in ((1.0, 1e-4), (1.35, 6e-3)):
         layer = BraggLayer.of(host, 1.7, 100.0, 130.0, 2, 0.5)
         stack = LayerStack.of((layer,), host, LayerBase.of([0.7, 0.5, 0.2], 0.9, 0.3, 0.5))
-        colours = layer_colours("layers-single", stack)
+        colours = layer_colours("layers-single-table", stack, parameters={"nodes": 256, "wavelengths": 64})
         values = brdf(stack, Pose.of(0.7, cos_o[:, None], np.cos(phi)), colours)
         sums = np.einsum("a,b,abc->c", weights * cos_o * 0.5, weights * np.pi, values)
         found = stack_energy(stack, 0.7, colours)
