@@ -52,8 +52,10 @@ float facet_reflectance(BraggMirror mirror, vec2 wavenumber) {
 
 vec4 facet_reflectance(BraggMirror mirror, int quad) {
     int i = 4 * quad;
-    return vec4(facet_reflectance(mirror, coarse_wavenumber(i)), facet_reflectance(mirror, coarse_wavenumber(i + 1)),
-                facet_reflectance(mirror, coarse_wavenumber(i + 2)), facet_reflectance(mirror, coarse_wavenumber(i + 3)));
+    return vec4(facet_reflectance(mirror, coarse_wavenumber(i)),
+                facet_reflectance(mirror, coarse_wavenumber(i + 1)),
+                facet_reflectance(mirror, coarse_wavenumber(i + 2)),
+                facet_reflectance(mirror, coarse_wavenumber(i + 3)));
 }
 
 // R(λ, θ) where `reflects`, else T(λ, θ) = ∫ (1 − R(λ, θ_d)) F_α dθ_d; one loop for both, as compilers copy functions
