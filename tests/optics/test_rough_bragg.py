@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import pairwise
 
 import mpmath
@@ -9,14 +10,35 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from scipy.integrate import dblquad, quad
+from numpy.typing import NDArray
 
 from gltf_iri.optics.bragg import bragg_reflectance
 from gltf_iri.optics.filter_panels import FilterPanels
 from gltf_iri.optics.microfacet import d_ggx
 from gltf_iri.optics.rough_bragg import facet_weight, filter_nodes, g1_smith, transmission_filter
 
+Float64 = NDArray[np.float64]
+
 ALPHAS = (0.005, 0.05, 0.1, 0.4, 1.0)
+
+
+def adaptive(function: Callable[[Float64], Float64], edges: list[float]) -> float:
+    """Return ∫ function by Gauss points, of panels halved until no half differs by 1e-14 from its whole."""
+    nodes, weights = np.polynomial.legendre.leggauss(12)
+
+    def panel(low: float, high: float) -> float:
+        return float(function(low + 0.5 * (high - low) * (nodes + 1.0)) @ weights) * 0.5 * (high - low)
+
+    total, todo = 0.0, list(pairwise(edges))
+    while todo:
+        low, high = todo.pop()
+        middle = 0.5 * (low + high)
+        whole, halves = panel(low, high), panel(low, middle) + panel(middle, high)
+        if abs(whole - halves) <= 1e-14 or high - low < 1e-12:
+            total += halves
+        else:
+            todo += [(low, middle), (middle, high)]
+    return total
 
 
 def kernel(cos_i: float, theta_d: float, psi: float, alpha: float) -> float:
@@ -40,10 +62,7 @@ def test_the_filter_integrates_to_the_masking(alpha: float, cos_i: float) -> Non
     marks |= {m + s * alpha * w for m in (theta_i,) for s in (-1, 1) for w in (1.0, 5.0, 25.0)}
     inside = sorted(m for m in marks if 0.0 < m < 0.5 * np.pi)
     edges = [0.0, *inside, 0.5 * np.pi]
-    total = sum(
-        quad(lambda d: float(transmission_filter(cos_i, d, alpha)), a, b, epsabs=1e-13, epsrel=1e-12)[0]
-        for a, b in pairwise(edges)
-    )
+    total = adaptive(lambda d: transmission_filter(cos_i, d, alpha), edges)
     assert abs(total - float(g1_smith(cos_i, alpha))) <= 1e-10
 
 
@@ -53,7 +72,7 @@ def test_the_closed_form_is_equation_29(alpha: float, cos_i: float, theta_d: flo
     sin_i = np.sqrt(1.0 - cos_i * cos_i)
     limit = -cos_i * np.cos(theta_d) / (sin_i * np.sin(theta_d))
     psi_max = np.arccos(max(limit, -1.0))
-    direct = quad(lambda psi: kernel(cos_i, theta_d, psi, alpha), 0.0, psi_max, epsabs=1e-13, epsrel=1e-12)[0]
+    direct = adaptive(np.vectorize(lambda psi: kernel(cos_i, theta_d, psi, alpha)), [0.0, psi_max])
     assert float(transmission_filter(cos_i, theta_d, alpha)) == pytest.approx(direct, rel=1e-10)
 
 
@@ -91,10 +110,10 @@ def test_weights_of_either_rule_add_up_to_the_masking(cos_i: float, alpha: float
 def test_fixed_angles_filter_fringes_as_angles_of_their_own_do(alpha: float) -> None:
     panels, cosines = FilterPanels.of(64), np.array([0.03, 0.3, 0.7, 1.0])
 
-    def passed(cos_d: np.ndarray) -> np.ndarray:
+    def passed(cos_d: Float64) -> Float64:
         return 1.0 - bragg_reflectance(1.0, 1.0, 1.5, 120.0, 120.0, 3, 471.0, cos_d)
 
-    nodes, weights = filter_nodes(cosines, alpha, count=400)
+    nodes, weights = filter_nodes(cosines, alpha, count=200)
     direct = (weights * passed(nodes)).sum(axis=-1)
     np.testing.assert_allclose(panels.weights(cosines, alpha) @ passed(panels.cosines), direct, atol=1e-9)
 
@@ -108,19 +127,19 @@ def test_a_smooth_layer_takes_light_at_its_own_angle() -> None:
 
 
 def test_the_lobe_integrates_to_what_is_neither_masked_nor_shadowed() -> None:
-    """Over the hemisphere by scipy, against D_v G₁(o) summed over facets."""
+    """Over the hemisphere by Gauss points, against D_v G₁(o) summed over facets."""
     from gltf_iri.evaluation.layer_energy import sent_facets
 
     alpha, cos_i = 0.4, 0.6
     sin_i = np.sqrt(1.0 - cos_i**2)
 
-    def sent(phi: float, cos_o: float) -> float:
-        sin_o = np.sqrt(1.0 - cos_o**2)
-        half = np.array([sin_i + sin_o * np.cos(phi), sin_o * np.sin(phi), cos_i + cos_o])
-        half /= np.linalg.norm(half)
-        return float(facet_weight(half[0] ** 2 + half[1] ** 2, cos_i, cos_o, alpha)) * cos_o
-
-    direct = 2.0 * dblquad(sent, 0.0, 1.0, 0.0, np.pi, epsabs=1e-10, epsrel=1e-10)[0]
+    nodes, weights = np.polynomial.legendre.leggauss(160)
+    cos_o, phi = 0.5 * (nodes[:, None] + 1.0), 0.5 * np.pi * (nodes + 1.0)
+    sin_o = np.sqrt(1.0 - cos_o**2)
+    half = np.stack(np.broadcast_arrays(sin_i + sin_o * np.cos(phi), sin_o * np.sin(phi), cos_i + cos_o))
+    half /= np.linalg.norm(half, axis=0)
+    sent = facet_weight(half[0] ** 2 + half[1] ** 2, cos_i, cos_o, alpha) * cos_o
+    direct = float(weights @ sent @ weights) * 0.5 * np.pi
     assert float(sent_facets(cos_i, alpha)[2].sum()) == pytest.approx(direct, abs=1e-9)
 
 
