@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, cast
 
 import click
 
@@ -21,6 +21,7 @@ from gltf_iri.cli.common import (
     print_table,
     progress,
 )
+from gltf_iri.cli.layers import baked_layers, print_layers
 from gltf_iri.cli.picture_options import (
     EMPTY_PICTURE,
     SIZE,
@@ -31,6 +32,7 @@ from gltf_iri.cli.picture_options import (
 )
 
 if TYPE_CHECKING:
+    from gltf_iri.colour.spaces import White
     from gltf_iri.comparison.reference_result import ReferenceResult
     from gltf_iri.comparison.result import Comparison
 
@@ -46,7 +48,9 @@ __all__ = ["command"]
     metavar="DIR",
     help="Folder for the pictures, report.json and index.html.  [default: FILE's name + '-compared', here]",
 )
-@click.option("--method", metavar="NAME", help="Film method; the plan chooses when left out.")
+@click.option(
+    "--method", metavar="NAME", help="Method for films, or for layers; the plan chooses when left out."
+)
 @budget_option
 @click.option("--size", type=SIZE, default="480x360", show_default=True, help="Size in pixels.")
 @click.option(
@@ -98,7 +102,7 @@ def command(
     model = load(file)
     scene = model.scene()
     plans = plan_scene(model, scene, method, budget, size=size, environment=environment, white=white)
-    tables = baked_tables(plans, white)
+    tables, layer_tables = baked_tables(plans, white), baked_layers(plans, cast("White", white))
     view = choose_camera(scene, camera, size)
     folder = Path(f"{file.stem}-compared" if out is None else out)
     # matplotlib warns where there is no home to keep its fonts' list in; the figures are the same.
@@ -111,17 +115,21 @@ def command(
         shown: dict[str, Any] = {
             "size": size,
             "exposure": choose_exposure(exposure, scene, environment),
+            "white": white,
+            "layer_tables": layer_tables,
             "advance": advance,
         }
         # First, for it may lack a package.
         held = against_reference(*arguments, **{**shown, **counts}) if reference else None
-        comparison = replace(compare(*arguments, **shown, white=white, tables=tables), reference=held)
+        comparison = replace(compare(*arguments, **shown, tables=tables), reference=held)
         if not comparison.materials:
             comparison = replace(comparison, notes=(*comparison.notes, EMPTY_PICTURE))
         files = write_report(comparison, folder)
         advance()
     if not as_json:
-        print_ways([material.plan for material in comparison.materials], tables)
+        shown_plans = [material.plan for material in comparison.materials]
+        print_ways(shown_plans, tables)
+        print_layers(shown_plans, layer_tables)
     _tell(comparison, files, as_json=as_json)
     if not comparison.agrees:
         raise AssetError(f"GLSL and Python disagree beyond tolerance; see {files['page']}", file=file)
@@ -200,10 +208,16 @@ def _row(material: Mapping[str, Any]) -> tuple[str, ...]:
     )
     return (
         material_label(material["index"], material["name"]),
-        material["way"]["label"] if material["way"] else material["method"] or "no film",
+        _method(material),
         str(material["glsl_vs_python"]["pixels"]),
         *map(_figure, figures),
     )
+
+
+def _method(material: Mapping[str, Any]) -> str:
+    if material["layers"]:
+        return str(material["layers"]["method"])
+    return material["way"]["label"] if material["way"] else material["method"] or "no film"
 
 
 def _figure(value: float | None) -> str:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.baking.baked import BakedTable
+from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.colour.spaces import White
 from gltf_iri.comparison.methods import BRANCH, TRUTH, film_method, table_method, white_of
@@ -28,6 +29,7 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.reach import Lobe
 from gltf_iri.reference.film_on import FilmMethod
+from gltf_iri.reference.layers_method import LAYERS_TRUTH, layers_method
 from gltf_iri.rendering.film_tables import checked_tables
 from gltf_iri.rendering.frame import Frame, ShadingInputs
 from gltf_iri.scene.model import Camera, Light
@@ -40,7 +42,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, slots=True)
 class Shot:
-    """What is needed beside the frames to shade their pixels again; `tables` as in `Renderer.render`."""
+    """What is needed beside the frames to shade their pixels again; all tables as in `Renderer.render`."""
 
     file: str
     materials: Sequence[Material]
@@ -53,6 +55,7 @@ class Shot:
     program: Mapping[str, str]
     notes: tuple[str, ...] = ()
     tables: Mapping[int, Mapping[Lobe, BakedTable]] = field(default_factory=dict)
+    layer_tables: Mapping[int, BakedLayers] = field(default_factory=dict)
 
 
 def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Comparison:
@@ -84,7 +87,7 @@ def judge(frame: Frame, shot: Shot, *, coarse: Frame | None = None) -> Compariso
     if coarse_inputs is not None:
         _draw_texture_difference(pictures, inputs, coarse_inputs, shot.exposure)
     whole = PictureResult(
-        _split(inputs, compared, pictures),
+        _split(inputs, shot.plans, compared, pictures),
         colour_error(pictures.python[compared], pictures.truth[compared], exposure=shot.exposure),
         _eight_bit(inputs, coarse_inputs, compared, shot.exposure),
     )
@@ -113,7 +116,8 @@ def _judge_material(
     film_ior, method, truth = _film_of(shot, plan)
     surface, image = surface_of_pixels(inputs, mask, shot.camera), image_light_of_pixels(inputs, mask)
     try:
-        mine = shade(surface, image, plan, film_ior, shot.lights, method)
+        layers = layers_method(plan, None, shot.layer_tables, shot.white)
+        mine = shade(surface, image, plan, film_ior, shot.lights, method, layers)
     except UsageError as error:  # legal in glTF, but no film: 10^30 nm
         what = str(error).rstrip(".")
         raise AssetError(
@@ -125,7 +129,7 @@ def _judge_material(
     judged = mask & compared
     result = MaterialResult(
         plan=plan,
-        glsl_vs_python=_split(inputs, judged, pictures),
+        glsl_vs_python=_split(inputs, shot.plans, judged, pictures),
         method_white=None,
         truth_white=None,
         method_vs_truth=None,
@@ -137,14 +141,15 @@ def _judge_material(
     if not mine.has_film.any():
         pictures.truth[mask] = mine.rgb
         return result
-    exact = shade(surface, image, plan, film_ior, shot.lights, truth)
+    true_layers = layers_method(plan, LAYERS_TRUTH, {}, shot.white)
+    exact = shade(surface, image, plan, film_ior, shot.lights, truth, true_layers)
     pictures.truth[mask] = exact.rgb
     filmed, seen = mine.has_film & ~left_out, ~left_out
     return replace(
         result,
-        method_white=white_of(plan.method or "", mine.white),
-        truth_white=exact.white,
-        method_vs_truth=colour_error(mine.film[filmed], exact.film[filmed]),
+        method_white=shot.white if plan.layers is not None else white_of(plan.method or "", mine.white),
+        truth_white=shot.white if plan.layers is not None else exact.white,
+        method_vs_truth=colour_error(mine.film[filmed].reshape(-1, 3), exact.film[filmed].reshape(-1, 3)),
         picture_vs_truth=colour_error(mine.rgb[seen], exact.rgb[seen], exposure=shot.exposure),
     )
 
@@ -185,11 +190,11 @@ def _masks(inputs: ShadingInputs, plans: Sequence[MaterialPlan]) -> Iterator[tup
             yield plan, mask
 
 
-def _split(inputs: ShadingInputs, mask: Mask, pictures: Pictures) -> Split:
+def _split(inputs: ShadingInputs, plans: Sequence[MaterialPlan], mask: Mask, pictures: Pictures) -> Split:
     def over(rows: Mask) -> Agreement:
         return agreement(pictures.glsl[rows], pictures.python[rows])
 
-    rough = is_rough(inputs)
+    rough = is_rough(inputs, plans)
     return Split(over(mask), over(mask & rough), over(mask & ~rough))
 
 

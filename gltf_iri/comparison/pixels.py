@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.material.bragg import BRAGG_LAYERS_MAX
 from gltf_iri.optics.microfacet import N_DOT_V_MIN, alpha_ggx
+from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.surface import Surface
 from gltf_iri.rendering.frame import ShadingInputs
 from gltf_iri.scene.model import Camera
@@ -34,11 +37,14 @@ class ImageLight:
     clearcoat_b: Float64
     sheen_albedo: Float64  # what white fibres reflect
     facet_cosine: Float64  # the mean V·H of the facets that send it; 0 where no film asks for it
+    layer_radiance: tuple[Float64, ...]  # prefiltered for each Bragg layer's lobe, outermost first
+    layer_metal_radiance: Float64  # for that of a metal below them
+    layer_coating_radiance: Float64  # along the mirror direction of their host's surface
 
     @property
     def is_there(self) -> Mask:
         """Where (n,) what the base's interface reflects of image light matters."""
-        colours = (self.reflected_radiance, self.irradiance, self.transmitted_radiance)
+        colours = (self.reflected_radiance, self.irradiance, self.transmitted_radiance, *self.layer_radiance)
         return np.asarray(np.any(np.concatenate(colours, axis=1) != 0.0, axis=1))
 
 
@@ -70,7 +76,7 @@ def surface_of_pixels(inputs: ShadingInputs, mask: Mask, camera: Camera) -> Surf
         # Filtering may round below 0.
         iridescence_thickness_nm=np.maximum(take("iridescence_thickness_nm"), 0.0),
         iridescence_thickness_std_nm=take("iridescence_thickness_std_nm"),
-        bragg_factor=take("bragg_factor"),
+        bragg_factor=np.clip(take("bragg_factor"), 0.0, 1.0),  # filtering may round past 1
         bragg_period_texel=take("bragg_period_texel"),
         anisotropy_strength=take("anisotropy_strength"),
         anisotropy_tangent=take("anisotropy_tangent"),
@@ -100,14 +106,29 @@ def image_light_of_pixels(inputs: ShadingInputs, mask: Mask) -> ImageLight:
         clearcoat_b=albedos[:, 1],
         sheen_albedo=albedos[:, 2],
         facet_cosine=take("facet_cosine"),
+        layer_radiance=tuple(take(f"bragg_radiance_{layer}") for layer in range(BRAGG_LAYERS_MAX)),
+        layer_metal_radiance=take("bragg_metal_radiance"),
+        layer_coating_radiance=take("bragg_coating_radiance"),
     )
 
 
-def is_rough(inputs: ShadingInputs) -> Mask:
-    """Return where (height, width) every lobe of facets is rough enough to be judged, the coat's included."""
+def is_rough(inputs: ShadingInputs, plans: Sequence[MaterialPlan]) -> Mask:
+    """Return where (height, width) every lobe of facets is rough enough to be judged.
+
+    The coat's lobe counts, and those of Bragg layers, whose host is as smooth as can be where it is not air.
+    """
     least = np.float32(GLSL_PIXEL_ROUGHNESS_MIN)
     coat = (inputs.clearcoat_roughness >= least) | (inputs.clearcoat == 0.0)
-    return np.asarray((inputs.perceptual_roughness >= least) & coat)
+    smooth = [
+        slot
+        for slot, plan in enumerate(plans)
+        if plan.layers is not None
+        and (
+            plan.layers.host_ior != 1.0
+            or min(layer.alpha for layer in plan.layers.layers) < GLSL_PIXEL_ROUGHNESS_MIN**2
+        )
+    ]
+    return np.asarray((inputs.perceptual_roughness >= least) & coat & ~np.isin(inputs.material, smooth))
 
 
 @dataclass(frozen=True, slots=True)

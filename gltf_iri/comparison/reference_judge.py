@@ -5,6 +5,8 @@ No OpenGL and no rays here: pictures from any two renderers can be judged.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -45,7 +47,12 @@ def same_surface(inputs: ShadingInputs, reference: ReferenceFrame, camera: Camer
 
 
 def same_problem(
-    inputs: ShadingInputs, reference: ReferenceFrame, mask: Mask, is_same: Mask, steepness: Float64
+    inputs: ShadingInputs,
+    plans: Sequence[MaterialPlan],
+    reference: ReferenceFrame,
+    mask: Mask,
+    is_same: Mask,
+    steepness: Float64,
 ) -> SameProblem:
     """Compare the pixels (height, width) of `mask` on which both renderers met the same surface.
 
@@ -53,8 +60,9 @@ def same_problem(
     `steepness` exceeds the tolerance are left out.
     """
     is_steep = steepness > GLSL_PIXEL_RELATIVE
-    rough = mask & is_same & ~is_steep & is_rough(inputs)
-    smooth = mask & is_same & ~is_steep & ~is_rough(inputs)
+    is_judged = is_rough(inputs, plans)
+    rough = mask & is_same & ~is_steep & is_judged
+    smooth = mask & is_same & ~is_steep & ~is_judged
     glsl, exact = inputs.colour.astype(np.float64), reference.rgba[..., :3]
     return SameProblem(
         agreement(glsl[rough], exact[rough]),

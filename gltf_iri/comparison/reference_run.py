@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.comparison.judge import inputs_of
 from gltf_iri.comparison.reference_judge import (
     delta_e_picture,
@@ -51,6 +53,8 @@ def against_reference(
     *,
     size: tuple[int, int],
     exposure: float = 0.0,
+    white: str = "D65",
+    layer_tables: Mapping[int, BakedLayers] = MappingProxyType({}),
     image_samples: int = 256,
     paths: int = 64,
     advance: Callable[[], None] = lambda: None,
@@ -61,6 +65,7 @@ def against_reference(
     ----------
     plans : one for each material of `model`; the default material's is added where the scene uses it.
     exposure : in EV; linear light is multiplied by 2^exposure before ΔE2000.
+    white, layer_tables : as in `Renderer.render`, for both.
     image_samples, paths : of the reference, a pixel (`render_reference`).
 
     Raises MissingCapabilityError without OpenGL or embreex, and what `render_reference` raises.
@@ -68,7 +73,7 @@ def against_reference(
     started = time.perf_counter()
     plans = complete_plans(plans, scene)
     factor = 2.0**exposure
-    exact = _draw_exactly(renderer, model, scene, plans, camera, size, advance)
+    exact = _draw_exactly(renderer, model, scene, plans, camera, size, white, layer_tables, advance)
     estimate = render_reference(
         model,
         scene,
@@ -76,12 +81,24 @@ def against_reference(
         camera,
         environment,
         size=size,
+        layer_method=None,
+        layer_tables=layer_tables,
+        white=white,
         image_samples=image_samples,
         paths=paths,
         advance=advance,
     )
     # Without smaller copies of the textures, which rays do not see either: what differs then is the light.
-    draw = partial(renderer.render, model, size=size, samples=0, float_textures=True, sharp_textures=True)
+    draw = partial(
+        renderer.render,
+        model,
+        size=size,
+        samples=0,
+        float_textures=True,
+        sharp_textures=True,
+        white=white,
+        layer_tables=layer_tables,
+    )
     glsl = draw(scene, plans, camera, environment).rgba[..., :3].astype(np.float64)
     behind = draw(replace(scene, primitives=()), plans, camera, environment).rgba[..., :3]
     mean = estimate.rgba[..., :3] + (1.0 - estimate.rgba[..., 3:]) * behind
@@ -124,13 +141,14 @@ class _Exact:
     """Both renderers' pictures of what both solve exactly."""
 
     inputs: ShadingInputs
+    plans: Sequence[MaterialPlan]
     reference: ReferenceFrame
     is_same: Mask  # (height, width), both met the same surface
     steepness: Float64  # (height, width)
     lights: str  # in words
 
     def compare(self, mask: Mask) -> SameProblem:
-        return same_problem(self.inputs, self.reference, mask, self.is_same, self.steepness)
+        return same_problem(self.inputs, self.plans, self.reference, mask, self.is_same, self.steepness)
 
 
 def _draw_exactly(
@@ -140,6 +158,8 @@ def _draw_exactly(
     plans: Sequence[MaterialPlan],
     camera: Camera,
     size: tuple[int, int],
+    white: str,
+    layer_tables: Mapping[int, BakedLayers],
     advance: Callable[[], None],
 ) -> _Exact:
     lights = "the scene's own lights"
@@ -154,6 +174,9 @@ def _draw_exactly(
             from_camera,
             None,
             size=size,
+            layer_method=None,
+            layer_tables=layer_tables,
+            white=white,
             lighting="punctual",
             is_blending=False,
             advance=advance,
@@ -170,7 +193,9 @@ def _draw_exactly(
         float_textures=True,
         sharp_textures=True,
         with_inputs=True,
+        white=white,
+        layer_tables=layer_tables,
     )
     inputs = inputs_of(frame)
     changes = steepness(lambda other: cast(other).rgba[..., :3], camera, size, reference.rgba[..., :3])
-    return _Exact(inputs, reference, same_surface(inputs, reference, camera), changes, lights)
+    return _Exact(inputs, plans, reference, same_surface(inputs, reference, camera), changes, lights)

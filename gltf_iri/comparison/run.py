@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from types import MappingProxyType
 
 import numpy as np
 
 from gltf_iri import __version__
 from gltf_iri.baking.baked import BakedTable
+from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.comparison.figures import TONEMAP
 from gltf_iri.comparison.judge import Shot, judge
 from gltf_iri.comparison.result import Comparison
@@ -38,6 +40,7 @@ def compare(
     exposure: float = 0.0,
     white: str = "D65",
     tables: Mapping[int, Mapping[Lobe, BakedTable]] = MappingProxyType({}),
+    layer_tables: Mapping[int, BakedLayers] = MappingProxyType({}),
     advance: Callable[[], None] = lambda: None,
 ) -> Comparison:
     """Draw `scene`, shade every pixel again in float64, by the plan's method and by truth, and compare.
@@ -50,6 +53,7 @@ def compare(
     exposure : in EV; linear light is multiplied by 2^exposure before ΔE2000 and for the pictures.
     white : of the truth and of the methods that know one, "D65" or "E".
     tables : the films' tables of the plans whose way has some (`baking.fill.bake_plans`), under `white`.
+    layer_tables : those of the plans' Bragg layers (`baking.layer_fill.bake_layer_plans`), under `white`.
     advance : called after each of STEPS.
 
     Of a plan with a way, image light is held against the truth's mean over the facets, not against F(N·V).
@@ -60,13 +64,20 @@ def compare(
     plans = complete_plans(plans, scene)
     arguments = (model, scene, plans, camera, environment)
     has_textures = any(effect.value.endswith("-texture") for plan in plans for effect in plan.effects)
-    fine = renderer.render(
-        *arguments, size=size, float_textures=True, with_inputs=True, white=white, tables=tables
+    draw = partial(
+        renderer.render,
+        *arguments,
+        size=size,
+        with_inputs=True,
+        white=white,
+        tables=tables,
+        layer_tables=layer_tables,
     )
+    fine = draw(float_textures=True)
     advance()
     coarse = None
     if has_textures:
-        coarse = renderer.render(*arguments, size=size, with_inputs=True, white=white, tables=tables)
+        coarse = draw()
     advance()
     shot = Shot(
         file=model.path.name,
@@ -76,6 +87,7 @@ def compare(
         camera=camera,
         white=white,
         tables=tables,
+        layer_tables=layer_tables,
         exposure=2.0**exposure,
         setup={
             "size": list(size),

@@ -13,12 +13,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.baking.layer_lookup import ImageColours
 from gltf_iri.comparison.image_light import image_light, under_clearcoat
 from gltf_iri.comparison.pixels import ImageLight
+from gltf_iri.optics.layer_stack import cosine_in_host
 from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.direct import punctual_lighting
 from gltf_iri.reference.film_on import Facets, FilmMethod, FilmOn
+from gltf_iri.reference.layers_on import LayersMethod
 from gltf_iri.reference.lobes import film_reflectances
 from gltf_iri.reference.surface import Surface
 from gltf_iri.scene.model import Light
@@ -34,8 +38,9 @@ class Shading:
     """Shaded pixels, and for each undefined case of the film's method the pixels (n,) it touched.
 
     rgb : (n, 3) linear colour.
-    film : (n, 3) the film's own reflectance at N·V, strength 1, metal and dielectric mixed by metalness; 0
-        where there is no film (`has_film` is False).
+    film : (n, k, 3) the film's own reflectance at N·V, strength 1, metal and dielectric mixed by metalness,
+        k = 1; or the colours of each Bragg layer, seen along N, and of what passes them, k = layers + 1. 0
+        where there is neither (`has_film` is False).
     white : the film's; empty where no film was evaluated.
     """
 
@@ -53,6 +58,7 @@ def shade(
     film_ior: float,
     lights: Sequence[Light],
     method: FilmMethod,
+    layers: LayersMethod | None = None,
 ) -> Shading:
     """Return the linear colour of each pixel of one material.
 
@@ -64,18 +70,40 @@ def shade(
     lights : the scene's punctual lights.
     method : maps a `Film` and how it is seen to its reflectance colours; of a plan with a way, image light is
         seen by facets.
+    layers : the colours of the Bragg layers; not read where the plan has none.
     """
-    film = FilmOn(surface, film_ior, method)
+    film = FilmOn(surface, film_ior, method, layers)
     facets = None if plan.way is None else Facets(surface.perceptual_roughness, image.facet_cosine)
     if plan.calls_for(Effect.UNLIT):
-        return Shading(surface.base_color, np.zeros_like(surface.base_color), film.has_film, "", {})
+        return Shading(surface.base_color, np.zeros((len(film.has_film), 1, 3)), film.has_film, "", {})
     everywhere = np.ones(len(surface.alpha_roughness), dtype=np.bool_)
     own_film = film_reflectances(surface, plan, film, surface.n_dot_v, everywhere)
     filmed = own_film
     if facets is not None:
         filmed = film_reflectances(surface, plan, film, surface.n_dot_v, image.is_there, facets)
-    rgb = under_clearcoat(surface, image, surface.emission + image_light(surface, image, plan, filmed))
+    seen = None if plan.layers is None or layers is None else _seen(surface, plan.layers, layers)
+    of_image = None if seen is None else seen.image
+    sent = surface.emission + image_light(surface, image, plan, filmed, of_image)
+    rgb = under_clearcoat(surface, image, sent)
     rgb += punctual_lighting(surface, lights, film, plan)
     share = surface.metallic[:, None]
     own = (1.0 - share) * own_film[0] + share * own_film[1]
-    return Shading(rgb, own, film.has_film, film.white, film.undefined)
+    if seen is not None:
+        return Shading(rgb, seen.colours, surface.bragg_factor > 0.0, "", {})
+    return Shading(rgb, own[:, None], film.has_film, film.white, film.undefined)
+
+
+@dataclass(frozen=True, slots=True)
+class _SeenLayers:
+    colours: Float64  # (n, layers + 1, 3)
+    image: ImageColours
+
+
+def _seen(surface: Surface, plan: LayersPlan, layers: LayersMethod) -> _SeenLayers:
+    """Return the layers as mirrors see them along N, light and viewer at N·V, and under image light."""
+    colours = layers(surface.bragg_period_texel)
+    cosine = cosine_in_host(plan.host_ior, surface.n_dot_v)
+    own = [colours.reflected(layer, cosine, cosine, cosine) for layer in range(len(plan.layers))]
+    if plan.under == "base":
+        own.append(colours.passed(cosine, cosine))
+    return _SeenLayers(np.stack(own, axis=1), colours.image(cosine))

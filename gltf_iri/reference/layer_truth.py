@@ -3,25 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.baking.layer_lookup import ImageColours
 from gltf_iri.colour.spaces import White
 from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.reference.spectrum_table import (
-    FineBands,
     SpectrumTable,
+    albedo,
     blocks,
     filtered,
     fine_bands,
+    irradiance,
     reflectance_tables,
 )
 
 __all__ = ["TabulatedLayers"]
 
 Float64 = NDArray[np.float64]
+
+_Factor = tuple[SpectrumTable, Float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,22 +52,24 @@ class TabulatedLayers:
     cells have resonances beside their gaps that are narrower: of the paper's stacks p95 of what a channel is
     off by is 3e-4, and its largest 1e-3 (a test says so); of low contrast, as in beetles, 1e-6. Near the
     critical angle of a last layer whose n1 is less than the host's, and for 50 cells in air, it is more.
+    Where periods vary there are 1024 wavelengths and 128 bands: 4e-4, and 1e-3.
     """
 
     def __init__(self, plan: LayersPlan, white: White) -> None:
         fine = _VARYING if plan.varies else _FIXED
-        self._plan = plan
+        self.count = len(plan.layers)
+        self._plan, self._fine = plan, fine
         self._bands = fine_bands(fine.bands, fine.samples, white)
-        self._first: SpectrumTable | None = None
-        self._reflected: list[SpectrumTable] = []
-        self._passed: list[SpectrumTable] = []
-        for number, layer in enumerate(plan.layers):
-            colours, means = reflectance_tables(plan, layer, self._bands, fine.periods, fine.cosines)
-            if number == 0:
-                self._first = colours
-            self._reflected.append(means)
-            if plan.under == "base" or number + 1 < len(plan.layers):
-                self._passed.append(filtered(means, layer.alpha, fine.filtered_cosines))
+        made = [
+            reflectance_tables(plan, layer, self._bands, fine.periods, fine.cosines) for layer in plan.layers
+        ]
+        self._first, self._reflected = made[0][0], [means for _, means in made]
+        # What passes the last layer comes back from a base only.
+        passing = plan.layers if plan.under == "base" else plan.layers[:-1]
+        self._passed = [
+            filtered(means, layer.alpha, fine.filtered_cosines)
+            for means, layer in zip(self._reflected, passing, strict=False)
+        ]
 
     def __call__(self, texel: Float64) -> _AtPoints:
         """Return the colours at points where the period texture reads `texel` (...)."""
@@ -72,47 +79,91 @@ class TabulatedLayers:
         if width > 0.0:
             # Filtering may round past what the texels hold.
             share = np.clip((np.asarray(texel) - span.low) / width, 0.0, 1.0)
-        return _AtPoints(self._first, self._reflected, self._passed, self._bands, share)
+        return _AtPoints(self, share)
+
+    def first(self, share: Float64, cosine: Float64) -> Float64:
+        """Return the first layer's reflectance as a colour (..., 3)."""
+        return self._first.at(share.ravel(), cosine.ravel()).reshape(*share.shape, 3)
+
+    def first_albedo(self, share: Float64, n_dot_v: Float64) -> Float64:
+        """Return what the first layer sends of a white sky, as a colour (..., 3)."""
+        return self._sky.first.at(share.ravel(), n_dot_v.ravel()).reshape(*share.shape, 3)
+
+    def reflecting(self, layer: int, cosine: Float64) -> list[_Factor]:
+        """Return the factor of what a layer reflects."""
+        return [(self._reflected[layer], cosine)]
+
+    def sending(self, layer: int, n_dot_v: Float64) -> list[_Factor]:
+        """Return the factor of what a layer sends of a white sky."""
+        return [(self._sky.albedos[layer], n_dot_v)]
+
+    def passing(self, count: int | None, *cosines: Float64) -> list[_Factor]:
+        """Return the factors of what passes the first `count` layers, or all, at each of `cosines`."""
+        return [(table, cosine) for table in self._passed[:count] for cosine in cosines]
+
+    def sky_passing(self, cosine: Float64) -> list[_Factor]:
+        """Return the factor of what of a white sky passes all layers; `cosine` gives its shape alone."""
+        return [] if self._sky.irradiance is None else [(self._sky.irradiance, cosine)]
+
+    def colour(self, share: Float64, factors: list[_Factor]) -> Float64:
+        """Return the colour (..., 3) of a product of spectra, each at its cosines (...)."""
+        rgb, along = np.zeros((share.size, 3)), share.ravel()
+        flat = [(table, cosine.ravel()) for table, cosine in factors]
+        for rows in blocks(share.size):
+            spectrum = np.ones((len(along[rows]), len(self._bands.weights)))
+            for table, cosine in flat:
+                spectrum *= table.at(along[rows], cosine[rows])
+            rgb[rows] = spectrum @ self._bands.weights
+        return rgb.reshape(*share.shape, 3)
+
+    @cached_property
+    def _sky(self) -> _Sky:
+        layers, cosines = self._plan.layers, self._fine.filtered_cosines
+        return _Sky(
+            albedo(self._first, layers[0].alpha, cosines),
+            [albedo(t, layer.alpha, cosines) for t, layer in zip(self._reflected, layers, strict=True)],
+            irradiance(self._passed, self._plan.host_ior) if self._plan.under == "base" else None,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Sky:
+    """Each layer's albedo, the first's as colours too, and what of a white sky passes all, to a base."""
+
+    first: SpectrumTable
+    albedos: list[SpectrumTable]
+    irradiance: SpectrumTable | None
 
 
 @dataclass(frozen=True, slots=True)
 class _AtPoints:
-    """`LayerColours` at points of one material; `share` (...) of the way along every layer's period."""
+    """`ColoursAtPoints` of one material; `share` (...) of the way along every layer's period."""
 
-    first: SpectrumTable | None
-    tables: list[SpectrumTable]
-    passages: list[SpectrumTable]
-    bands: FineBands
+    of: TabulatedLayers
     share: Float64
 
     def reflected(self, layer: int, cos_h: Float64, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (..., 3), the colour of R_layer(h) Π_{k<layer} T_k(i) T_k(o)."""
         share, h, i, o = np.broadcast_arrays(self.share, cos_h, cos_i, cos_o)
-        if layer == 0 and self.first is not None:
-            return self.first.at(share.ravel(), h.ravel()).reshape(*h.shape, 3)
-        return self._colour(share, self.tables[layer], h, self.passages[:layer], i, o)
+        if layer == 0:
+            return self.of.first(share, h)
+        return self.of.colour(share, self.of.reflecting(layer, h) + self.of.passing(layer, i, o))
 
     def passed(self, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (..., 3), the colour of Π_k T_k(i) T_k(o) over all layers."""
         share, i, o = np.broadcast_arrays(self.share, cos_i, cos_o)
-        return self._colour(share, None, i, self.passages, i, o)
+        return self.of.colour(share, self.of.passing(None, i, o))
 
-    def _colour(
-        self,
-        share: Float64,
-        table: SpectrumTable | None,
-        h: Float64,
-        above: list[SpectrumTable],
-        i: Float64,
-        o: Float64,
-    ) -> Float64:
-        flat = [each.ravel() for each in (share, h, i, o)]
-        rgb = np.zeros((h.size, 3))
-        for rows in blocks(h.size):
-            s, at_h, at_i, at_o = (each[rows] for each in flat)
-            spectrum = np.ones((len(s), len(self.bands.weights))) if table is None else table.at(s, at_h)
-            for passage in above:
-                spectrum *= passage.at(s, at_i)
-                spectrum *= passage.at(s, at_o)
-            rgb[rows] = spectrum @ self.bands.weights
-        return rgb.reshape(*h.shape, 3)
+    def image(self, n_dot_v: Float64) -> ImageColours:
+        """Return what image light becomes, as `LayerLookup.image` does of its tables."""
+        of = self.of
+        share, seen = np.broadcast_arrays(self.share, n_dot_v)
+        behind = [
+            of.colour(share, of.sending(layer, seen) + of.passing(layer, seen, seen))
+            for layer in range(1, of.count)
+        ]
+        return ImageColours(
+            (of.first_albedo(share, seen), *behind),
+            diffuse=of.colour(share, of.passing(None, seen) + of.sky_passing(seen)),
+            metal=of.colour(share, of.passing(None, seen, seen)),
+        )

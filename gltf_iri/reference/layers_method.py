@@ -5,19 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Final, cast
 
+import numpy as np
+from numpy.typing import NDArray
+
 from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.baking.layer_lookup import LayerLookup
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.layer_methods import layer_colours
 from gltf_iri.evaluation.planned_stack import planned_stack
-from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.planning.method import find_method
 from gltf_iri.reference.layer_truth import TabulatedLayers
+from gltf_iri.reference.layers_direct import DirectLayers
 from gltf_iri.reference.layers_on import LayersMethod
 
 __all__ = ["LAYERS_TRUTH", "check_layers", "layers_method"]
+
+Float64 = NDArray[np.float64]
 
 LAYERS_TRUTH: Final = "layers-single"
 
@@ -59,17 +64,14 @@ def layers_method(
         tables = baked
         return lambda texel: LayerLookup(tables, texel)
     name = method or layers.method
-    # The truth takes milliseconds; a picture asks for millions of directions.
-    return (
-        TabulatedLayers(layers, cast(White, white)) if name == LAYERS_TRUTH else _direct(layers, name, white)
-    )
-
-
-def _direct(layers: LayersPlan, name: str, white: str) -> LayersMethod:
+    if name == LAYERS_TRUTH:
+        # The truth takes milliseconds; a picture asks for millions of directions.
+        truth = TabulatedLayers(layers, cast(White, white))
+        return truth if method is not None else lambda texel: DirectLayers(layers, truth(texel))
     parameters = layers.parameters if name == layers.method else {}
-    return lambda texel: layer_colours(
-        name,
-        planned_stack(layers, texel if layers.varies else layers.texel.low),
-        white=white,
-        parameters=parameters,
-    )
+
+    def direct(texel: Float64) -> DirectLayers:
+        stack = planned_stack(layers, texel if layers.varies else layers.texel.low)
+        return DirectLayers(layers, layer_colours(name, stack, white=white, parameters=parameters))
+
+    return direct

@@ -8,10 +8,12 @@ share (1 − metallic)·colour and a metal of the material's own roughness. The 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.baking.layer_lookup import ImageColours
 from gltf_iri.evaluation.layers import LayerBase, LayerColours, coating_reflectance, layer_terms
 from gltf_iri.evaluation.planned_stack import planned_stack
 from gltf_iri.optics.layer_stack import Sight, coating_transmittance, cosine_in_host
@@ -20,12 +22,21 @@ from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.reference.points import unit
 from gltf_iri.reference.surface import Surface
 
-__all__ = ["LayersMethod", "sight_between", "stack_lobes"]
+__all__ = ["ColoursAtPoints", "LayersMethod", "sight_between", "stack_lobes"]
 
 Float64 = NDArray[np.float64]
 
-# The colours of one material's layers where the period texture reads (n,).
-LayersMethod = Callable[[Float64], LayerColours]
+
+class ColoursAtPoints(LayerColours, Protocol):
+    """The colours of one material's layers at n points, under image light too."""
+
+    def image(self, n_dot_v: Float64) -> ImageColours:
+        """Return what image light becomes, seen at the cosine `n_dot_v` in the host."""
+        ...
+
+
+# The colours where the period texture reads (n,).
+LayersMethod = Callable[[Float64], ColoursAtPoints]
 
 
 def stack_lobes(surface: Surface, towards_light: Float64, plan: LayersPlan, method: LayersMethod) -> Float64:

@@ -7,6 +7,7 @@ of the period texture's value where periods vary, tables are cubic.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -14,14 +15,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.backends import choose_backend
+from gltf_iri.baking.layer_factors import sky_nodes
 from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM
 from gltf_iri.colour.quadrature import colour_density
 from gltf_iri.colour.spaces import White
 from gltf_iri.optics.bragg import bragg_reflectance
+from gltf_iri.optics.layer_lobe import layer_lobe
+from gltf_iri.optics.microfacet import N_DOT_V_MIN
 from gltf_iri.optics.rough_bragg import filter_nodes
 from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
 
-__all__ = ["FineBands", "SpectrumTable", "filtered", "fine_bands", "reflectance_tables"]
+__all__ = ["FineBands", "SpectrumTable", "albedo", "blocks", "filtered", "fine_bands", "irradiance"]
+__all__ += ["reflectance_tables"]
 
 Float64 = NDArray[np.float64]
 Float32 = NDArray[np.float32]
@@ -63,14 +68,16 @@ def fine_bands(bands: int, samples: int, white: White) -> FineBands:
 
 @dataclass(frozen=True, slots=True)
 class SpectrumTable:
-    """`values` (P, C, B) over P even texture shares and C even cosines, each from 0 to 1; P may be 1."""
+    """`values` (P, C, B) over P even texture shares and C even cosines from 0 to 1; either may be 1."""
 
     values: Float64 | Float32
 
     def at(self, share: Float64, cosine: Float64) -> Float64:
         """Return (n, B) at `share` (n,) and `cosine` (n,), both in [0, 1]."""
         periods, cosines, bands = self.values.shape
-        rows, weights = _cubic(cosine, cosines)
+        rows, weights = np.zeros((len(cosine), 1), np.int64), np.ones((len(cosine), 1))
+        if cosines > 1:
+            rows, weights = _cubic(cosine, cosines)
         if periods > 1:
             places, shares = _cubic(share, periods)
             rows = (places[:, :, None] * cosines + rows[:, None, :]).reshape(len(cosine), -1)
@@ -116,16 +123,36 @@ def reflectance_tables(
 def filtered(reflected: SpectrumTable, alpha: float, cosines: int) -> SpectrumTable:
     """Return T = ∫ (1 − R) F_α dθ_d (periods, cosines, B), Fourneau et al. 2024, Eq. 28, of facets' R."""
     met, weights = filter_nodes(np.linspace(0.0, 1.0, cosines), alpha, count=_FILTER_POINTS)
-    periods, nodes, bands = reflected.values.shape
+    return _averaged(SpectrumTable(1.0 - reflected.values), met, weights)
+
+
+def albedo(reflected: SpectrumTable, alpha: float, cosines: int) -> SpectrumTable:
+    """Return ∫ R w cosθ_i dω_i over the lobe of each viewer, (periods, cosines, B), of facets' R."""
+    # Along the surface nothing is seen; 0 would divide by it.
+    seen_at = np.maximum(np.linspace(0.0, 1.0, cosines), N_DOT_V_MIN)
+    return _averaged(reflected, *layer_lobe(seen_at, alpha))
+
+
+def irradiance(passed: Sequence[SpectrumTable], host_ior: float) -> SpectrumTable:
+    """Return what of a white sky passes all layers (periods, 1, B), as the coating lets it in."""
+    cosines, weights = sky_nodes(host_ior)
+    alone = np.ones((len(cosines), 1))
+    through = np.prod([_averaged(table, cosines[:, None], alone).values for table in passed], axis=0)
+    return SpectrumTable(np.einsum("s,psb->pb", weights, through)[:, None])
+
+
+def _averaged(table: SpectrumTable, met: Float64, weights: Float64) -> SpectrumTable:
+    """Return Σ weights · table(cosine met) over the last axis of both, (C, k): (P, C, B)."""
+    periods, nodes, bands = table.values.shape
     rows, shares = _cubic(met.ravel(), nodes)
-    # What each of R's nodes counts for in each T: the rule's weights, spread by the interpolation's.
-    counts = np.zeros((cosines, nodes))
+    # What each of the table's nodes counts for: the rule's weights, spread by the interpolation's.
+    counts = np.zeros((len(met), nodes))
     spread = weights.ravel()[:, None] * shares
-    np.add.at(counts, (np.repeat(np.arange(cosines), met.shape[1])[:, None], rows), spread)
-    passed = np.zeros((periods, cosines, bands), np.float32)
+    np.add.at(counts, (np.repeat(np.arange(len(met)), met.shape[1])[:, None], rows), spread)
+    sums = np.zeros((periods, len(met), bands), table.values.dtype)
     for place in range(periods):
-        passed[place] = counts @ (1.0 - reflected.values[place])
-    return SpectrumTable(passed)
+        sums[place] = counts @ table.values[place]
+    return SpectrumTable(sums)
 
 
 def blocks(count: int) -> list[slice]:

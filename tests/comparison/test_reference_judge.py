@@ -51,10 +51,10 @@ def test_pixels_on_edges_are_counted_and_not_compared(row_of_pixels) -> None:
     everywhere = np.ones((1, 3), np.bool_)
     is_same = np.array([[True, False, True]])
     flat = np.zeros((1, 3))
-    result = same_problem(inputs, reference, everywhere, is_same, flat)
+    result = same_problem(inputs, (), reference, everywhere, is_same, flat)
     assert (result.rough.pixels, result.edges, result.steep) == (2, 1, 0)
     assert result.rough.max_relative == 0.0
-    assert not same_problem(inputs, reference, everywhere, everywhere, flat).agrees
+    assert not same_problem(inputs, (), reference, everywhere, everywhere, flat).agrees
 
 
 def test_pixels_that_hang_on_a_rounding_are_counted_and_not_compared(row_of_pixels) -> None:
@@ -62,7 +62,7 @@ def test_pixels_that_hang_on_a_rounding_are_counted_and_not_compared(row_of_pixe
     reference = reference_of(inputs)
     reference.rgba[0, 1, :3] += 0.5
     everywhere = np.ones((1, 2), np.bool_)
-    result = same_problem(inputs, reference, everywhere, everywhere, np.array([[0.0, 0.1]]))
+    result = same_problem(inputs, (), reference, everywhere, everywhere, np.array([[0.0, 0.1]]))
     assert (result.rough.pixels, result.edges, result.steep) == (1, 0, 1)
     assert result.agrees
 
@@ -72,16 +72,16 @@ def test_smooth_pixels_are_reported_but_not_judged(row_of_pixels) -> None:
     reference = reference_of(inputs)
     reference.rgba[..., :3] += 1.0
     everywhere = np.ones((1, 2), np.bool_)
-    result = same_problem(inputs, reference, everywhere, everywhere, np.zeros((1, 2)))
+    result = same_problem(inputs, (), reference, everywhere, everywhere, np.zeros((1, 2)))
     assert result.agrees
     assert result.rough.pixels == 0
     assert result.smooth.max_abs > GLSL_PIXEL_RELATIVE
 
 
 def test_a_smooth_coat_keeps_a_rough_base_from_being_judged(row_of_pixels) -> None:
-    assert is_rough(row_of_pixels(clearcoat=0.5, clearcoat_roughness=0.3)).all()
-    assert not is_rough(row_of_pixels(clearcoat=0.5, clearcoat_roughness=0.1)).any()
-    assert is_rough(row_of_pixels(clearcoat=0, clearcoat_roughness=0.1)).all()
+    assert is_rough(row_of_pixels(clearcoat=0.5, clearcoat_roughness=0.3), ()).all()
+    assert not is_rough(row_of_pixels(clearcoat=0.5, clearcoat_roughness=0.1), ()).any()
+    assert is_rough(row_of_pixels(clearcoat=0, clearcoat_roughness=0.1), ()).all()
 
 
 @pytest.mark.parametrize("kind", ["perspective", "orthographic"])
