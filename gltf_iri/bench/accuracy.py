@@ -12,6 +12,7 @@ import numpy as np
 
 from gltf_iri.bench.accuracy_entries import Truth, measured, method_entries, table_entries, true_colours
 from gltf_iri.bench.accuracy_glsl import glsl_rows
+from gltf_iri.bench.accuracy_layers import LAYERS, LayerSubject, layer_rows, layer_subject
 from gltf_iri.bench.accuracy_row import AccuracyRow, Errors
 from gltf_iri.bench.accuracy_sets import ACCURACY_SETS
 from gltf_iri.bench.accuracy_tables import Tables, film_tables, look_ups, set_parts
@@ -44,12 +45,15 @@ class Subject:
     parts: Sequence[Sequence[FilmPart]]
 
 
-def subjects(files: Sequence[Path] = ()) -> Mapping[str, Callable[[], Subject]]:
+def subjects(files: Sequence[Path] = ()) -> Mapping[str, Callable[[], Subject | LayerSubject]]:
     """Return every set by its name: the fixed ones, then the materials of `files` or of the samples.
 
     A set of a file raises UsageError where it has no film, and as `load` where it cannot be read.
     """
-    found: dict[str, Callable[[], Subject]] = {name: partial(_fixed, name) for name in ACCURACY_SETS}
+    found: dict[str, Callable[[], Subject | LayerSubject]] = {
+        name: partial(_fixed, name) for name in ACCURACY_SETS
+    }
+    found[LAYERS] = layer_subject
     if not files:
         found[SAMPLES] = _samples
     for name, path in zip(set_names(files), files, strict=True):
@@ -58,12 +62,17 @@ def subjects(files: Sequence[Path] = ()) -> Mapping[str, Callable[[], Subject]]:
 
 
 def measure_set(
-    workload: str, subject: Subject, context: moderngl.Context | None, rounds: int | None = None
+    workload: str,
+    subject: Subject | LayerSubject,
+    context: moderngl.Context | None,
+    rounds: int | None = None,
 ) -> list[AccuracyRow]:
     """Return the rows of one set on numpy, compiled where numba is installed, and in OpenGL with a context.
 
     rounds : of the timings; None for as many as some seconds allow.
     """
+    if isinstance(subject, LayerSubject):
+        return layer_rows(workload, subject, _PYTHON_S, rounds)
     truth = true_colours(subject.colours)
     tables = list(_tables(workload, subject))
     entries = list(method_entries(subject.colours, truth))

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
+from gltf_iri.bench.accuracy_layers import LAYERS
 from gltf_iri.bench.accuracy_plot import plot_accuracy
 from gltf_iri.bench.accuracy_row import AccuracyRow
 from gltf_iri.bench.accuracy_sets import ACCURACY_SETS
@@ -71,11 +72,12 @@ def costs_json(rows: Sequence[AccuracyRow], machine: Mapping[str, Any]) -> dict[
     """
     times: dict[tuple[str, str, str], list[float]] = {}
     for row in rows:
-        if row.workload in ACCURACY_SETS:
+        if row.workload in ACCURACY_SETS or row.workload == LAYERS:
             times.setdefault((row.backend, row.workload, row.way), []).append(row.ns_per_eval)
     ns: dict[str, dict[str, dict[str, float]]] = {}
     for (backend, workload, way), each in times.items():
-        of_set = ns.setdefault(backend, {}).setdefault(workload, {NO_FILM: 0.0})
+        without = {} if workload == LAYERS else {NO_FILM: 0.0}
+        of_set = ns.setdefault(backend, {}).setdefault(workload, without)
         of_set[way] = float(f"{statistics.median(each):.4g}")
     return {"machine": dict(machine), "ns": ns}
 

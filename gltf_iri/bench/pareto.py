@@ -32,7 +32,7 @@ BEATEN: Final = 3.0
 
 # What the front is meant to consist of, tables and the truths beside them; all others are judged.
 # `incoherent` is the constant term of fourier's series.
-OURS: Final = frozenset({"fourier", "incoherent", "bloch"})
+OURS: Final = frozenset({"fourier", "incoherent", "bloch", "layers-bands"})
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,6 +33,9 @@ ACCURACY_SETTINGS: Final[Mapping[str, tuple[Settings, ...]]] = {
     "spectral-grid": _GRIDS,
     "yeh-grid": _GRIDS,
     "landmarks": tuple({"root_finder": finder} for finder in ("newton-1", "bisect-10")),
+    "layers-single-table": ({"nodes": 128}, {"wavelengths": 512}),
+    "layers-rgb": tuple({"reflectance": r} for r in ("yeh-spectral", "landmarks", "landmarks-sub")),
+    "layers-bands": tuple({"bands": n} for n in (4, 6, 8, 12, 24, 32, 64)),
     "bloch": tuple({"samples": n} for n in (8, 16, 24, 32, 48, 64, 96, 128)),
 }
 
