@@ -7,6 +7,7 @@ points, of which matrices make the means over facets: by the filter F_α and ove
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache, lru_cache
 from typing import Final
 
 import numpy as np
@@ -15,11 +16,11 @@ from numpy.typing import NDArray
 
 from gltf_iri.baking.facet_matrix import chebyshev_cosines, chebyshev_moments, terms_for, to_coefficients
 from gltf_iri.baking.layer_spectra import Weighing, layer_spectra
+from gltf_iri.optics.filter_panels import FilterPanels
 from gltf_iri.optics.layer_lobe import layer_lobe
 from gltf_iri.optics.layer_stack import coating_transmittance, cosine_in_host
 from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN
 from gltf_iri.optics.quadrature import gauss_unit
-from gltf_iri.optics.rough_bragg import filter_nodes
 from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
 
 __all__ = ["LayerFactors", "SkyFactors", "layer_factors", "passing_moments", "sky_factors"]
@@ -34,6 +35,8 @@ _ROWS_AT_ONCE: Final = 64  # of 768 points of a lobe: their numbers stay in a co
 _MAX_ERROR: Final = 2e-5
 
 _SKY_NODES: Final = 48
+_PANELS: Final = 64  # of 16 angles of the filter: series of 384 terms swing half as often
+_LOBE: Final = {"slopes": 48, "turns": 16}
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +115,7 @@ def sky_factors(layer: PlannedLayer, factors: LayerFactors, cosines: Float64, sk
     moments = np.concatenate(
         [
             chebyshev_moments(
-                *layer_lobe(np.maximum(cosines[i : i + _ROWS_AT_ONCE], N_DOT_V_MIN), layer.alpha),
+                *layer_lobe(np.maximum(cosines[i : i + _ROWS_AT_ONCE], N_DOT_V_MIN), layer.alpha, **_LOBE),
                 series.shape[1],
             )
             for i in range(0, len(cosines), _ROWS_AT_ONCE)
@@ -136,4 +139,23 @@ def passing_moments(cosines: Float64, alpha: float, terms: int) -> Float64:
     """
     if alpha <= ALPHA_MIN:
         return np.asarray(chebvander(2.0 * cosines - 1.0, terms - 1))
-    return chebyshev_moments(*filter_nodes(cosines, alpha), terms)
+    return _kept_moments(cosines.tobytes(), alpha, terms)
+
+
+@lru_cache(maxsize=32)
+def _kept_moments(told: bytes, alpha: float, terms: int) -> Float64:
+    """Return the moments of rough layers; those of the same tables are asked for again and again."""
+    cosines, panels = np.frombuffer(told), _panels()
+    vander = chebvander(2.0 * panels.cosines - 1.0, terms - 1)
+    parts = [
+        panels.weights(cosines[i : i + _ROWS_AT_ONCE], alpha) @ vander
+        for i in range(0, len(cosines), _ROWS_AT_ONCE)
+    ]
+    moments = np.concatenate(parts)
+    moments.setflags(write=False)
+    return moments
+
+
+@cache
+def _panels() -> FilterPanels:
+    return FilterPanels.of(_PANELS)

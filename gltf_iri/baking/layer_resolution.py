@@ -39,8 +39,8 @@ _CHECKED: Final = (64, 16)
 _CHECKS: Final = 5
 
 # Cells of a first guess, of which halves and doubles are tried.
-_COS_CELLS: Final = 128
-_PERIOD_CELLS: Final = 32
+_COS_CELLS: Final = 64
+_PERIOD_CELLS: Final = 16
 _CELLS_MAX: Final = 4096
 
 

@@ -21,6 +21,9 @@ if TYPE_CHECKING:
 
 __all__ = ["bragg_verdicts", "layer_reflects", "period_texel", "verdicts_below"]
 
+# Cells so thick colour nothing: their fringes are finer than any light that is seen is pure.
+_PERIOD_MAX_NM: Final = 1e5
+
 _EFFECTS: Final = (Effect.BRAGG, Effect.BRAGG_TEXTURE, Effect.BRAGG_PERIOD_TEXTURE)
 
 # What shapes the reflection of the base's own surface, and nothing below it.
@@ -96,6 +99,9 @@ def _missing(material: Material, bragg: Bragg, folded: Mapping[Effect, str]) -> 
         return NotDrawn(f"{Iridescence.EXTENSION} on the same material excludes it")
     if dict(transmission_verdicts(material, folded))[Effect.TRANSMISSION] is None:
         return NotDrawn(f"it is not drawn together with {Transmission.EXTENSION}")
+    longest = max(max(layer.period_min_nm, layer.period_max_nm) for layer in bragg.layers)
+    if longest > _PERIOD_MAX_NM:
+        return NotDrawn(f"a period of {longest:g} nm is beyond the {_PERIOD_MAX_NM:g} nm that are simulated")
     *above, last = (layer.ior_1 != bragg.host_ior for layer in bragg.layers)
     if any(above):
         return NotDrawn("a first index that is not the host's bends light: only the last layer may have one")

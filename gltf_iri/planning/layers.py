@@ -19,9 +19,9 @@ from gltf_iri.planning.method import ParameterValue
 from gltf_iri.planning.mirror import film_in_mirror
 from gltf_iri.planning.reach import Span
 
-__all__ = ["DEFAULT_LAYERS_METHOD", "default_tables", "plan_layers"]
+__all__ = ["DRAWN_BY_DEFAULT", "default_tables", "plan_layers"]
 
-DEFAULT_LAYERS_METHOD: Final = "layers-bands"
+DRAWN_BY_DEFAULT: Final = "layers-bands"
 
 # Where no budget asks: texels along the cosine, and along the period where it varies.
 _COS_NODES: Final = 256
@@ -36,13 +36,17 @@ _ONE_CELL: Final = "one cell in a host of its own n1"
 _NO_CONTRAST: Final = "facets that mirror nothing let all light by"
 
 
-def default_tables(method: str, texel: Span) -> LayerTables | None:
-    """Return the shape of the tables that `method` is drawn from without a budget; None where directly."""
+def default_tables(method: str, texel: Span, *, is_alone: bool = False) -> LayerTables | None:
+    """Return the shape of the tables that `method` is drawn from without a budget; None where directly.
+
+    is_alone : one layer on black, whose colour nothing is multiplied with.
+    """
     bands = _TABLE_BANDS.get(method)
     if bands is None:
         return None
     nodes = 1 if texel.is_point else _PERIOD_NODES
-    return LayerTables(bands, method == "layers-rgb", _COS_NODES, nodes, "f4", 0.0)
+    is_colour = is_alone or method == "layers-rgb"
+    return LayerTables(3 if is_colour else bands, is_colour, _COS_NODES, nodes, "f4", 0.0)
 
 
 def plan_layers(
@@ -71,12 +75,12 @@ def plan_layers(
         texel = Span.at(1.0)  # no period varies by it
     elif texel is None:
         texel = period_texel(material, None)
-    chosen = method or DEFAULT_LAYERS_METHOD
+    chosen = method or DRAWN_BY_DEFAULT
     under: Under = "nothing" if _is_black(material) else "base"
     layers, simpler = _kept(bragg, texel)
     if under == "nothing":
         told = "the base is black: nothing that passes the last layer comes back"
-        simpler.append(f"{told}, and a single layer needs no transmission" if len(layers) == 1 else told)
+        simpler.append(f"{told}, and a single layer's colour is all" if len(layers) == 1 else told)
     return LayersPlan(
         layers=tuple(layers),
         host_ior=bragg.host_ior,
@@ -84,7 +88,7 @@ def plan_layers(
         texel=texel,
         method=chosen,
         parameters=dict(parameters),
-        tables=tables or default_tables(chosen, texel),
+        tables=tables or default_tables(chosen, texel, is_alone=under == "nothing" and len(layers) == 1),
         delta_e=delta_e,
         ns_per_colour=ns_per_colour,
         reason=reason or ("asked for" if method is not None else "the default: band by band, out of tables"),

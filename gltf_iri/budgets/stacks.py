@@ -1,0 +1,83 @@
+"""The cheapest method for the colours of a stack of Bragg layers that keeps a budget, in Python.
+
+Its errors are measured at random poses, cosines uniform, against `layers-single`: of each layer's reflection
+through those above, and over a base of what passes all; what is stated is the greatest of these.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gltf_iri.budgets.candidates import Candidate, direct_candidates
+from gltf_iri.budgets.errors import Measured
+from gltf_iri.budgets.search import Chosen, cheapest_way, check_budget, the_truth
+from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.colour.quantile import bounds
+from gltf_iri.colour.spaces import Light
+from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.layer_methods import layer_colours
+from gltf_iri.evaluation.layers import LayerColours, LayerStack
+from gltf_iri.optics.layer_stack import Sight, sight_of
+from gltf_iri.planning.costs import Device, shipped_costs
+from gltf_iri.planning.method import METHODS, truth_of
+
+__all__ = ["way_for_stack"]
+
+Float64 = NDArray[np.float64]
+
+_WORKLOAD: Final = "layers"  # of the map of costs
+_POSES: Final = 256
+_SEED: Final = 7
+
+
+def way_for_stack(
+    stack: LayerStack, budget: float, *, device: Device = "numpy", white: str | Light = "D65"
+) -> Chosen:
+    """Return the cheapest method for the colours of `stack` whose p95 of ΔE keeps `budget`, and why.
+
+    Stacks of arrays are looked at at as many poses together. Raises UsageError for a budget below 0 or NaN,
+    where none keeps it, and where the map of costs knows no method for layers.
+    """
+    candidates = direct_candidates("layers", device, [_WORKLOAD])
+    if not candidates:
+        known = ", ".join(shipped_costs().ns.get(device, {}))
+        raise UsageError(f"The map of costs knows no methods for layers, only {known}: name a method.")
+    if check_budget(budget) == 0.0:
+        return the_truth(candidates)
+    seen: list[Float64] = []
+    shape = np.broadcast_shapes(stack.host_ior.shape, *(layer.shape for layer in stack.layers))
+    poses = (max(1, math.ceil(_POSES / max(math.prod(shape), 1))), *shape)
+    g = np.random.default_rng(_SEED)
+    cos_i, cos_o, turn = g.uniform(size=(3, *poses))
+    sight = sight_of(stack.host_ior, cos_i, cos_o, np.cos(np.pi * turn))
+
+    def measure(candidate: Candidate, allowed: float) -> Measured:
+        method = str(candidate.method)
+        if METHODS[method].is_truth:
+            return Measured(0.0, True)
+        if not seen:
+            seen.extend(_terms(layer_colours(truth_of("layers"), stack, white=white), stack, sight))
+        try:
+            colours = layer_colours(method, stack, white=white, parameters=candidate.parameters)
+            found = _terms(colours, stack, sight)
+        except UsageError:  # one that tabulates a single stack, or knows no total reflection
+            return Measured(math.inf, False)
+        below = max(
+            (bounds(delta_e_2000(a, b).reshape(-1))[1] for a, b in zip(found, seen, strict=True)), default=0.0
+        )
+        return Measured(below, below <= allowed)
+
+    return cheapest_way(candidates, measure, budget, 1.0, subject="these layers")
+
+
+def _terms(colours: LayerColours, stack: LayerStack, sight: Sight) -> list[Float64]:
+    """Return each layer's colours, and over a base that of what passes all."""
+    cosines = sight.cos_h, sight.cos_i, sight.cos_o
+    terms = [colours.reflected(number, *cosines) for number in range(len(stack.layers))]
+    if not stack.base.is_black:
+        terms.append(colours.passed(sight.cos_i, sight.cos_o))
+    return [np.asarray(each) for each in terms]
