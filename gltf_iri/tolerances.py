@@ -76,7 +76,9 @@ GLSL_LANDMARKS_HALVED_MAX_ABS: Final = 6e-3
 
 # Stacks of rough layers by the same rules in both, and a BRDF relative to max(1, f_r). At single wavelengths,
 # with up to 30 cells of 1 µm, two rows in a thousand err by more, up to 7e-4: all of them where four float32
-# steps of thicknesses, cosines or facets' angles do as much. Colours of the whole rule keep to it.
+# steps of thicknesses, cosines or facets' angles do as much. By the whole rule, of 100,000 layers and 10,000
+# pairs, 2 reflections, 27 of what passes and 29 of f_r err by more, up to 4e-4, again where such steps do
+# (`bench layers-agreement`).
 GLSL_LAYERS_MAX_ABS: Final = 1e-5
 
 # Mirrors by bloch: a dozen samples of float32, whose weights add up to six. In cells of 0.1 mm float32 keeps

@@ -1,4 +1,7 @@
-"""`gltf-iri bench layers`: Tables 1 and 2 of Fourneau et al. 2024, measured here beside what they print."""
+"""`gltf-iri bench layers`: Tables 1 and 2 of Fourneau et al. 2024, measured here beside what they print.
+
+And `layers-agreement`: GLSL's colours of layers against Python's.
+"""
 
 from __future__ import annotations
 
@@ -10,9 +13,10 @@ from gltf_iri.cli.common import note, print_table, progress
 from gltf_iri.errors import MissingCapabilityError
 
 if TYPE_CHECKING:
+    from gltf_iri.bench.layers_agreement import AgreementRow
     from gltf_iri.bench.layers_rows import LayerRow
 
-__all__ = ["measure_layers"]
+__all__ = ["measure_layers", "measure_layers_agreement"]
 
 
 def measure_layers(rounds: int | None) -> tuple[list[LayerRow], Callable[[], None]]:
@@ -44,6 +48,37 @@ def measure_layers(rounds: int | None) -> tuple[list[LayerRow], Callable[[], Non
         _print_second(second)
 
     return [*first, *second], tables
+
+
+def measure_layers_agreement() -> tuple[list[AgreementRow], Callable[[], None]]:
+    """Return how far GLSL's colours of layers are from Python's, and what prints it."""
+    from gltf_iri.bench.layers_agreement import agreement_steps, measure_agreement
+    from gltf_iri.rendering.context import create_context
+
+    context = create_context()
+    try:
+        with progress("layers-agreement", agreement_steps()) as advance:
+            rows = measure_agreement(context, after_chunk=advance)
+    finally:
+        context.release()
+    return rows, lambda: _print_agreement(rows)
+
+
+def _print_agreement(rows: Sequence[AgreementRow]) -> None:
+    cells = [
+        (
+            f"{row.count:,} of {row.layers}",
+            row.colour,
+            f"{row.p99:.1e}",
+            f"{row.p9999:.1e}",
+            f"{row.max_abs:.1e}",
+            f"{row.beyond:,}",
+            f"{row.beyond_steps:,}",
+        )
+        for row in rows
+    ]
+    columns = ("layers", "colour", "p99", "p99.99", "max", f"beyond {rows[0].tolerance:g}", "not by steps")
+    print_table(columns, cells, title=f"Colours by {rows[0].backend} against float64, the same rules")
 
 
 def _print_first(rows: Sequence[LayerRow]) -> None:

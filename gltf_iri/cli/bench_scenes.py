@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["WHOLE", "measure_whole"]
 
-WHOLE = ("scenes", "twenty", "image-light", "arrays", "layers")
+WHOLE = ("scenes", "twenty", "image-light", "arrays", "layers", "layers-agreement")
 
 # The rows, and what prints them.
 Measured = tuple[list[Any], Callable[[], None]]
@@ -35,6 +35,10 @@ def measure_whole(name: str, files: Sequence[Path], rounds: int | None, count: i
         from gltf_iri.cli.bench_layers import measure_layers
 
         return measure_layers(rounds)
+    if name == "layers-agreement":
+        from gltf_iri.cli.bench_layers import measure_layers_agreement
+
+        return measure_layers_agreement()
     return _image_light() if name == "image-light" else _arrays(count)
 
 

@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 
 import numpy as np
 import pytest
-from layered import PROBES, Case, FixedRules, Known, random_case, rule_table
 from numpy.typing import NDArray
 
+from gltf_iri.bench.layers_cases import random_case
+from gltf_iri.bench.layers_fixed import (
+    PROBES,
+    FixedRules,
+    colours_and_brdf,
+    errors_of,
+    glsl_colours,
+    moved_by_steps,
+)
 from gltf_iri.colour.bands import bands_of
 from gltf_iri.colour.quadrature import SPECTRAL_DEGREE, ColourRule, colour_rule
-from gltf_iri.evaluation.layers import LayerColours, brdf
 from gltf_iri.evaluation.mirror import Mirror
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.optics.rough_bragg import filter_nodes
@@ -25,7 +32,6 @@ Float64 = NDArray[np.float64]
 
 SINGLE = "optics/layers_single.glsl"
 CHUNK = 10_000
-LINES = ('#include "optics/fresnel.glsl"', *PROBES)
 
 
 def three_wavelengths(g: np.random.Generator) -> tuple[ColourRule, ColourRule]:
@@ -34,47 +40,14 @@ def three_wavelengths(g: np.random.Generator) -> tuple[ColourRule, ColourRule]:
     return ColourRule(nm[::4], np.eye(3)), ColourRule(nm, np.repeat(np.eye(3), 3, axis=0) / 3.0)
 
 
-def colours_and_brdf(case: Case, colours: LayerColours) -> tuple[Float64, Float64, Float64]:
-    """Return the last layer's reflected colour, what passes all layers, and f_r; each is computed once."""
-    sight, count = case.sight, len(case.stack.layers)
-    reflected = [colours.reflected(k, sight.cos_h, sight.cos_i, sight.cos_o) for k in range(count)]
-    passed = colours.passed(sight.cos_i, sight.cos_o)
-    return reflected[-1], passed, brdf(case.stack, case.pose, Known(reflected, passed))
-
-
-def errors_of(found: Sequence[Float64], truth: Sequence[Float64]) -> Float64:
-    """Return (3, rows): of both colours, and of f_r relative to max(1, |f_r|); the worst channel's."""
-    scales = 1.0, 1.0, np.maximum(1.0, np.abs(truth[2]))
-    return np.array(
-        [
-            (np.abs(a - b) / scale).max(axis=-1, initial=0.0)
-            for a, b, scale in zip(found, truth, scales, strict=True)
-        ]
-    )
-
-
-def glsl_of(probe: Probe, case: Case, tables: dict[str, Table]) -> list[Float64]:
-    calls = (
-        ("reflected", case.colour_arguments()),
-        ("passed", case.colour_arguments()),
-        ("brdf", case.arguments()),
-    )
-    count = len(case.stack.layers)
-    return [
-        probe.call(f"{name}_{count}", SINGLE, given, lines=LINES, tables=tables).astype(np.float64)
-        for name, given in calls
-    ]
-
-
-def moved_by_steps(case: Case, rules: tuple[ColourRule, ColourRule], truth: Sequence[Float64]) -> Float64:
-    """Return (3, rows): the most that four float32 steps of thicknesses, cosines or facets' angles change."""
-    moved = [
-        errors_of(colours_and_brdf(each, FixedRules(each.stack, *rules)), truth) for each in case.steps()
-    ]
-    for ulp in (-4.0, -2.0, -1.0, 1.0, 2.0, 4.0):
-        off = FixedRules(case.stack, *rules, node_step_rad=ulp * float(np.finfo(np.float32).eps))
-        moved.append(errors_of(colours_and_brdf(case, off), truth))
-    return np.max(moved, axis=0)
+def rule_table(rule: ColourRule, fine: ColourRule) -> Table:
+    """Return what fills `spectral_rule` where `rule` is the coarse rule, each fourth wavelength of `fine`."""
+    table = np.zeros((4, len(fine.wavelength_nm), 4), dtype=np.float32)
+    wavenumber = 1.0 / fine.wavelength_nm
+    leading = (wavenumber.astype(np.float32).view(np.uint32) & np.uint32(0xFFFFF000)).view(np.float32)
+    table[0, :, 0], table[0, :, 1], table[1, :, :3] = leading, wavenumber - leading, fine.weights
+    table[3, : len(rule.weights), :3] = rule.weights
+    return table
 
 
 @pytest.mark.gl
@@ -97,13 +70,14 @@ def test_glsl_layers_equal_python_layers(
     for seed in range(rows // CHUNK):
         case, rules = random_case(CHUNK, layers, seed, cells_max=cells_max), three_wavelengths(g)
         truth = colours_and_brdf(case, FixedRules(case.stack, *rules))
-        error = errors_of(glsl_of(probe, case, {"spectral_rule": rule_table(*rules)}), truth)
+        error = errors_of(glsl_colours(probe, case, SINGLE, {"spectral_rule": rule_table(*rules)}), truth)
         errors.append(error)
         chosen = np.flatnonzero((error > GLSL_LAYERS_MAX_ABS).any(axis=0))
         moved = moved_by_steps(case.rows(chosen), rules, [each[chosen] for each in truth])
         beyond.append(error[:, chosen] - moved)
     every = np.concatenate(errors, axis=1)
-    for name, each in zip(("reflected", "passed", "f_r"), every, strict=True):
+    names = [*(f"reflected {k}" for k in range(1, layers + 1)), "passed", "f_r"]
+    for name, each in zip(names, every, strict=True):
         share = float(np.mean(each <= GLSL_LAYERS_MAX_ABS))
         numbers = f"p99 {np.quantile(each, 0.99):.1e}, max {each.max():.1e}"
         record_property("measured", f"{layers} of ≤ {cells_max} cells, {name}: {share:.3%} within; {numbers}")
@@ -122,11 +96,11 @@ def test_light_that_is_bent_behind_the_last_layer_passes_in_glsl_as_in_python(
         three_wavelengths(np.random.default_rng(1)),
     )
     truth = colours_and_brdf(case, FixedRules(case.stack, *rules))
-    found = glsl_of(probe, case, {"spectral_rule": rule_table(*rules)})
-    errors = errors_of(found, truth)[:2]
+    found = glsl_colours(probe, case, SINGLE, {"spectral_rule": rule_table(*rules)})
+    errors = errors_of(found, truth)[:-1]
     assert np.quantile(errors, 0.999) <= GLSL_LAYERS_MAX_ABS
     chosen = np.flatnonzero((errors > GLSL_LAYERS_MAX_ABS).any(axis=0))
-    moved = moved_by_steps(case.rows(chosen), rules, [each[chosen] for each in truth])[:2]
+    moved = moved_by_steps(case.rows(chosen), rules, [each[chosen] for each in truth])[:-1]
     assert (errors[:, chosen] - moved).max(initial=0.0) <= GLSL_LAYERS_MAX_ABS
 
 
@@ -143,7 +117,8 @@ def test_the_tables_that_are_drawn_with_hold_the_rules_that_python_has(
     tables = {name: optics_table(name, "D65", {}) for name in names}
 
     def of_bands(factors: list[Float64]) -> Float64:
-        return np.prod([bands.means(each, rule) for each in factors], axis=0) @ bands.weights
+        means = np.prod([bands.means(each, rule) for each in factors], axis=0)
+        return np.asarray(means @ bands.weights)
 
     python = FixedRules(case.stack, rule, fine, of_bands if method == "layers_bands" else None)
     sight = case.sight
@@ -153,7 +128,7 @@ def test_the_tables_that_are_drawn_with_hold_the_rules_that_python_has(
         ("reflected_1", python.reflected(0, sight.cos_h, sight.cos_i, sight.cos_o)),
     ):
         given = case.colour_arguments()[: 4 if name == "reflected_1" else None]
-        found = probe.call(name, f"optics/{method}.glsl", given, lines=LINES, tables=tables)
+        found = probe.call(name, f"optics/{method}.glsl", given, lines=PROBES, tables=tables)
         error = np.abs(found - expected).max()
         record_property("measured", f"{method}, {name}: {error:.1e}")
         assert error <= GLSL_LAYERS_MAX_ABS
@@ -192,7 +167,7 @@ def test_glsl_layers_multiply_the_colours_of_every_mirror_method(
             name,
             "optics/layers_rgb.glsl",
             case.colour_arguments(),
-            lines=LINES,
+            lines=PROBES,
             tables=tables,
             defines=(find_method(method, "mirror").define,),
         )
@@ -209,7 +184,7 @@ def test_smooth_layers_pass_what_their_facets_do_not_reflect(probe: Probe) -> No
     films[:, 2] = 0.0
     cosines[:, 0] = cosines[:, 2] = cosines[:, 1]
     tables = {"spectral_rule": rule_table(*rules)}
-    passed = probe.call("passed_1", SINGLE, [host, cosines, films, thicknesses], lines=LINES, tables=tables)
+    passed = probe.call("passed_1", SINGLE, [host, cosines, films, thicknesses], lines=PROBES, tables=tables)
     flat = FixedRules(case.stack, *rules)
     reflected = flat.at(0, case.sight.cos_i[:, None], rules[0])[:, 0]
     assert np.abs(passed - (1.0 - reflected) ** 2).max() <= GLSL_LAYERS_MAX_ABS
