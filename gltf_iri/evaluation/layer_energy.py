@@ -21,25 +21,30 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
-from gltf_iri.evaluation.layer_spectra import LayerSpectra
+from gltf_iri.evaluation.layer_spectra import LayerSpectra, fringes_of
 from gltf_iri.evaluation.layers import BraggLayer, LayerColours, LayerStack, coating_reflectance
 from gltf_iri.evaluation.layers_single import LayersSingle
-from gltf_iri.optics.facet_mean import facet_directions
 from gltf_iri.optics.fresnel import f_schlick
+from gltf_iri.optics.layer_lobe import LobeNodes, layer_lobe, lobe_nodes
 from gltf_iri.optics.layer_stack import coating_transmittance, cosine_in_host
 from gltf_iri.optics.quadrature import gauss_unit
 
-__all__ = ["LayerShares", "StackEnergy", "layer_shares", "sent_facets", "stack_energy"]
+__all__ = ["LayerShares", "StackEnergy", "layer_shares", "stack_energy"]
 
 Float64 = NDArray[np.float64]
 
-# Gauss points over the facets' slopes (each of two panels) and turns: 2e-9 of their sum for α ≥ 0.1, 1e-8 at
-# 0.05, 2e-7 at 0.01; for stacks, where every point costs a spectrum, fewer, and 1e-5. Under a coating, whose
-# transmittance begins as a square root at the angle of total reflection, 4e-3 of white.
-_SLOPES: Final = 48
-_TURNS: Final = 16
-_STACK_SLOPES: Final = 20
-_STACK_TURNS: Final = 8
+# Gauss points over angles (each of three panels) and turns of what one layer sends: 1e-12 of its sum. And for
+# each fringe more, so that R of single wavelengths keeps 2e-7 at five fringes, 1e-4 at twenty and 7e-4 at
+# thirty, where resonances are narrow. For stacks, where every point costs a spectrum, fewer: 3e-6 of smooth
+# colours for α from 0.005, in air and under a coating.
+_ANGLES: Final = 32
+_TURNS: Final = 32
+_POINTS_A_FRINGE: Final = 6
+_POINTS_MAX: Final = 160
+_STACK_ANGLES: Final = 12
+_STACK_TURNS: Final = 16
+
+_VALUES_AT_ONCE: Final = 1 << 21  # bounds memory: points × wavelengths
 
 _COSINES: Final = 32  # of what a Lambertian base sends
 
@@ -68,22 +73,6 @@ class StackEnergy:
     absorbed: Float64
 
 
-def sent_facets(
-    cos_theta: ArrayLike, alpha: ArrayLike, *, slopes: int = _SLOPES, turns: int = _TURNS
-) -> tuple[Float64, Float64, Float64]:
-    """Return cosines i·h and θ_o, and weights (..., q) of ∫ D_v G₁(o) f dω_m, facets that send light up.
-
-    cos_theta : of the light at the layer, in (0, 1]; alpha : in (0, 1].
-    """
-    c, a = np.broadcast_arrays(np.asarray(cos_theta, np.float64), np.asarray(alpha, np.float64))
-    cos_h, cos_o, share = facet_directions(c, a, slopes=slopes, turns=turns)
-    c, a = c[..., None], a[..., None]
-    seen = (c + np.sqrt(a * a + (1.0 - a * a) * c * c)) * (
-        cos_o + np.sqrt(a * a + (1.0 - a * a) * cos_o * cos_o)
-    )
-    return np.minimum(cos_h, 1.0), cos_o, share / seen
-
-
 def layer_shares(
     layer: BraggLayer, host_ior: float, cos_theta: ArrayLike, wavelength_nm: ArrayLike
 ) -> LayerShares:
@@ -99,10 +88,22 @@ def layer_shares(
     if spectra.alpha == 0.0:
         sent = spectra.reflectance(cosine, wavelength)
     else:
-        cos_h, _, weights = sent_facets(np.maximum(cosine, 1e-9), spectra.alpha)
-        of_facets = spectra.reflectance(cos_h.reshape(-1), wavelength).reshape(*cos_h.shape, -1)
-        sent = np.einsum("nq,nqk->nk", weights, of_facets)
+        sent = _sent(spectra, cosine, wavelength, fringes_of(layer, host_ior))
     return LayerShares(sent, passed, 1.0 - sent - passed)
+
+
+def _sent(spectra: LayerSpectra, cosine: Float64, wavelength_nm: Float64, fringes: float) -> Float64:
+    """Return R (n, k) of a rough layer, an integral over its lobe at each of `cosine` (n,)."""
+    more = int(_POINTS_A_FRINGE * fringes)
+    angles, turns = (min(count + more, _POINTS_MAX) for count in (_ANGLES, _TURNS))
+    sent = np.zeros((len(cosine), len(wavelength_nm)))
+    step = max(1, _VALUES_AT_ONCE // (3 * angles * turns))
+    for row, each in enumerate(cosine):
+        cos_h, weights = layer_lobe(each, spectra.alpha, angles=angles, turns=turns)
+        for first in range(0, len(wavelength_nm), step):
+            some = slice(first, first + step)
+            sent[row, some] = weights @ spectra.reflectance(cos_h, wavelength_nm[some])
+    return sent
 
 
 def stack_energy(
@@ -116,50 +117,48 @@ def stack_energy(
         raise UsageError("The energy of a stack is that of one stack: give numbers, not arrays.")
     outside = np.atleast_1d(np.asarray(cos_theta, np.float64))
     host = float(stack.host_ior)
-    inside = np.maximum(cosine_in_host(host, outside), 1e-9)
     enters = coating_transmittance(host, outside)[:, None]
     sent = np.zeros((len(outside), 3))
     for number, layer in enumerate(stack.layers):
-        sent += _of_facets(host, inside, float(layer.alpha), number, colours)
-    from_base = enters * _of_base(stack, host, inside, colours)
+        sent += _of_facets(host, outside, float(layer.alpha), number, colours)
+    from_base = enters * _of_base(stack, host, outside, colours)
     mirrored = coating_reflectance(host, outside)[:, None]
-    transmitted = enters * LayersSingle(stack, white).entering(inside)
+    transmitted = enters * LayersSingle(stack, white).entering(cosine_in_host(host, outside))
     of_layers = mirrored + enters * sent
     return StackEnergy(of_layers + from_base, from_base, transmitted, 1.0 - of_layers - transmitted)
 
 
-def _of_facets(host: float, inside: Float64, alpha: float, number: int, colours: LayerColours) -> Float64:
+def _of_facets(host: float, outside: Float64, alpha: float, number: int, colours: LayerColours) -> Float64:
     if alpha == 0.0:
+        inside = cosine_in_host(host, outside)
         mirrored = colours.reflected(number, inside, inside, inside)
-        return np.asarray(_leaving(host, inside)[:, None] * mirrored)
-    cos_h, cos_o, weights = sent_facets(inside, alpha, slopes=_STACK_SLOPES, turns=_STACK_TURNS)
-    cos_i = np.broadcast_to(inside[:, None], cos_h.shape)
-    colour = colours.reflected(number, cos_h, cos_i, cos_o)
-    return np.asarray(np.einsum("nq,nqc->nc", weights * _leaving(host, cos_o), colour))
+        return np.asarray(coating_transmittance(host, outside)[:, None] * mirrored)
+    nodes, cos_i, leaving = _lobe(host, outside, alpha)
+    colour = colours.reflected(number, nodes.cos_h, cos_i, nodes.cos_o)
+    return np.asarray(np.einsum("nq,nqc->nc", leaving, colour))
 
 
-def _of_base(stack: LayerStack, host: float, inside: Float64, colours: LayerColours) -> Float64:
-    base, sent = stack.base, np.zeros((len(inside), 3))
+def _of_base(stack: LayerStack, host: float, outside: Float64, colours: LayerColours) -> Float64:
+    base, sent = stack.base, np.zeros((len(outside), 3))
     if base.is_black:
         return sent
     if base.diffuse.any():
         # Of cosines outside, c = t²: what is masked changes fastest towards grazing angles.
         t, weights = gauss_unit(_COSINES)
-        outside = t * t
-        weights = weights * 4.0 * t**3 * coating_transmittance(host, outside) / float(stack.exit_ior) ** 2
-        cos_i, cos_o = np.broadcast_arrays(inside[:, None], cosine_in_host(host, outside))
+        weights = weights * 4.0 * t**3 * coating_transmittance(host, t * t) / float(stack.exit_ior) ** 2
+        cos_i, cos_o = np.broadcast_arrays(
+            cosine_in_host(host, outside)[:, None], cosine_in_host(host, t * t)
+        )
         sent += base.diffuse * np.einsum("q,nqc->nc", weights, colours.passed(cos_i, cos_o))
     if base.metal_share.any():
-        alpha = float(base.metal_alpha)
-        cos_h, cos_o, weights = sent_facets(inside, alpha, slopes=_STACK_SLOPES, turns=_STACK_TURNS)
-        cos_i = np.broadcast_to(inside[:, None], cos_h.shape)
-        colour = colours.passed(cos_i, cos_o) * f_schlick(base.metal_f0, cos_h[..., None])
-        sent += base.metal_share[..., None] * np.einsum("nq,nqc->nc", weights * _leaving(host, cos_o), colour)
+        nodes, cos_i, leaving = _lobe(host, outside, float(base.metal_alpha))
+        colour = colours.passed(cos_i, nodes.cos_o) * f_schlick(base.metal_f0, nodes.cos_h[..., None])
+        sent += base.metal_share[..., None] * np.einsum("nq,nqc->nc", leaving, colour)
     return sent
 
 
-def _leaving(host: float, inside: Float64) -> Float64:
-    """Return what the coating lets out of light at `inside` in the host: nothing beyond total reflection."""
-    squared = 1.0 - host * host * (1.0 - inside) * (1.0 + inside)
-    passed = coating_transmittance(host, np.sqrt(np.maximum(squared, 0.0)))
-    return np.asarray(np.where(squared > 0.0, passed, 0.0) if host > 1.0 else np.ones(np.shape(inside)))
+def _lobe(host: float, outside: Float64, alpha: float) -> tuple[LobeNodes, Float64, Float64]:
+    """Return what a lobe's light is sent to, cosines (n, q) of the light in the host, and what leaves it."""
+    nodes = lobe_nodes(outside, alpha, host, angles=_STACK_ANGLES, turns=_STACK_TURNS)
+    cos_i = np.broadcast_to(cosine_in_host(host, outside)[:, None], nodes.cos_h.shape)
+    return nodes, cos_i, nodes.weights * coating_transmittance(host, nodes.cos_outside)

@@ -13,7 +13,7 @@ from gltf_iri.evaluation.layers import BraggLayer
 from gltf_iri.optics.bragg import bragg_reflectance
 from gltf_iri.optics.filter_panels import FilterPanels
 
-__all__ = ["LayerSpectra", "panels_for"]
+__all__ = ["LayerSpectra", "fringes_of", "panels_for"]
 
 Float64 = NDArray[np.float64]
 
@@ -28,17 +28,20 @@ _PANELS_MAX: Final = 1024
 _VALUES_AT_ONCE: Final = 1 << 21  # bounds memory: angles × wavelengths, and cosines × angles
 
 
-def panels_for(layer: BraggLayer, host_ior: float) -> int:
-    """Return how many panels of θ_d the fringes of one `layer` need.
+def fringes_of(layer: BraggLayer, host_ior: float) -> float:
+    """Return how many fringes pass between straight on and grazing, at the shortest wavelength.
 
-    As many fringes pass as the path through all cells and back, 2N Σ qd, changes by wavelengths between
-    straight on and grazing, where q = √(n² − n_h²).
+    As many as the path through all cells and back, 2N Σ qd, changes by wavelengths, where q = √(n² − n_h²).
     """
     change_nm = 0.0
     for n, d_nm in ((layer.n1, layer.d1_nm), (layer.n2, layer.d2_nm)):
         change_nm += float((d_nm * (n - np.sqrt(np.maximum(n * n - host_ior**2, 0.0)))).item())
-    fringes = 2.0 * float(layer.cells.item()) * change_nm / WAVELENGTH_RANGE_NM[0]
-    wanted = _PANELS_OF_FILTER + _PANELS_A_FRINGE * fringes
+    return 2.0 * float(layer.cells.item()) * change_nm / WAVELENGTH_RANGE_NM[0]
+
+
+def panels_for(layer: BraggLayer, host_ior: float) -> int:
+    """Return how many panels of θ_d the fringes of one `layer` need."""
+    wanted = _PANELS_OF_FILTER + _PANELS_A_FRINGE * fringes_of(layer, host_ior)
     # Of the same few numbers, so that layers share the angles.
     return int(min(2.0 ** (np.ceil(4.0 * np.log2(wanted)) / 4.0), _PANELS_MAX))
 

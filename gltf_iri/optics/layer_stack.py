@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.optics.refraction import normal_index_squared_real
 
-__all__ = ["Sight", "coating_transmittance", "cosine_in_host", "sight_of"]
+__all__ = ["Sight", "coating_transmittance", "cosine_in_host", "half_vector", "sight_of"]
 
 Float64 = NDArray[np.float64]
 
@@ -59,32 +59,41 @@ def coating_transmittance(host_ior: ArrayLike, cos_theta: ArrayLike) -> Float64:
     return np.asarray(0.5 * (t_s + t_p))
 
 
+def half_vector(cos_i: ArrayLike, cos_o: ArrayLike, turn: ArrayLike) -> tuple[Float64, Float64]:
+    """Return i·h and |n×h|² of the half vector h; arrays broadcast.
+
+    i·o = c_i c_o + s_i s_o cosφ, i·h = √(½(1 + i·o)) and |n×h|² = |s_i + s_o e^{iφ}|² / (2(1 + i·o)).
+
+    cos_i, cos_o : in [0, 1]; turn : 1 + cosφ of the turn between them, in [0, 2], 0 in the mirror direction.
+    """
+    i, o, t = (np.asarray(x, np.float64) for x in (cos_i, cos_o, turn))
+    sin_i, sin_o = (np.sqrt((1.0 - c) * (1.0 + c)) for c in (i, o))
+    product = sin_i * sin_o
+    # 1 + i·o = 1 + cos(θ_i + θ_o) + s_i s_o (1 + cosφ); the first two are (c_i + c_o)²/(1 + cos(θ_i − θ_o)).
+    total = (i + o) ** 2 / (1.0 + i * o + product) + product * t
+    tilt = (sin_i - sin_o) ** 2 + 2.0 * product * t
+    # 0/0 where both graze from opposite sides: no facet is met.
+    sine_squared = np.divide(tilt, 2.0 * total, out=np.zeros(np.shape(total)), where=total > 0.0)
+    return np.asarray(np.sqrt(0.5 * total)), np.asarray(np.minimum(sine_squared, 1.0))
+
+
 def sight_of(
     host_ior: ArrayLike, cos_theta_i: ArrayLike, cos_theta_o: ArrayLike, cos_phi: ArrayLike
 ) -> Sight:
     """Return how the layers are seen; arrays broadcast.
-
-    i·o = c_i c_o + s_i s_o cosφ, i·h = √(½(1 + i·o)) and |n×h|² = |s_i + s_o e^{iφ}|² / (2(1 + i·o)).
 
     host_ior : real index, ≥ 1.
     cos_theta_i, cos_theta_o : of light and viewer outside, in [0, 1]; cos_phi : of the turn between them
         about the normal, −1 where the viewer stands in the plane and on the side of the mirrored light.
     """
     cos_i, cos_o = cosine_in_host(host_ior, cos_theta_i), cosine_in_host(host_ior, cos_theta_o)
-    sin_i, sin_o = (np.sqrt((1.0 - c) * (1.0 + c)) for c in (cos_i, cos_o))
-    turn = 1.0 + np.asarray(cos_phi, np.float64)
-    product = sin_i * sin_o
-    # 1 + i·o = 1 + cos(θ_i + θ_o) + s_i s_o (1 + cosφ); the first two are (c_i + c_o)²/(1 + cos(θ_i − θ_o)).
-    total = (cos_i + cos_o) ** 2 / (1.0 + cos_i * cos_o + product) + product * turn
-    tilt = (sin_i - sin_o) ** 2 + 2.0 * product * turn
-    # 0/0 where both graze from opposite sides: no facet is met.
-    sine_squared = np.divide(tilt, 2.0 * total, out=np.zeros(np.shape(total)), where=total > 0.0)
+    cos_h, n_cross_h_squared = half_vector(cos_i, cos_o, 1.0 + np.asarray(cos_phi, np.float64))
     n = np.asarray(host_ior, np.float64)
     outside = coating_transmittance(n, cos_theta_i) * coating_transmittance(n, cos_theta_o) / (n * n)
     return Sight(
         cos_i,
         cos_o,
-        np.asarray(np.sqrt(0.5 * total)),
-        np.asarray(np.minimum(sine_squared, 1.0)),
+        cos_h,
+        n_cross_h_squared,
         np.asarray(np.where(n == 1.0, 1.0, outside)),
     )
