@@ -1,7 +1,8 @@
 """Colours of a plan's layers at random poses: the truth, and what bands and colours make of it.
 
 All come from the same spectra. Where the texture of periods varies, some of its values are drawn, and for
-each some poses: a layer's spectra at one period give what passes it in every direction.
+each some poses: a layer's spectra at one period give what passes it in every direction. Light and viewer
+stand at cosines of one even, jittered pool, so that the filter is integrated once for each of them.
 """
 
 from __future__ import annotations
@@ -20,18 +21,23 @@ from gltf_iri.colour.difference import delta_e_2000
 from gltf_iri.colour.quadrature import ColourRule
 from gltf_iri.colour.quantile import bounds
 from gltf_iri.colour.spaces import White
-from gltf_iri.optics.layer_stack import sight_of
+from gltf_iri.evaluation.layer_methods import layer_colours
+from gltf_iri.evaluation.planned_stack import planned_stack
+from gltf_iri.optics.layer_stack import cosine_in_host, sight_of
 from gltf_iri.optics.microfacet import ALPHA_MIN
 from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
+from gltf_iri.planning.method import truth_of
 
-__all__ = ["COLOURS", "LayerSamples", "p95_below", "p95_guess", "sampled_layers"]
+__all__ = ["COLOURS", "LayerSamples", "doubt_of", "p95_below", "p95_guess", "sampled_layers"]
 
 Float64 = NDArray[np.float64]
 
 # Stands among numbers of bands for colours that are multiplied.
 COLOURS: Final = 0
 
+_DOUBTED: Final = 8
 _TERMS: Final = 384  # of the series over the cosine: resonances beside band gaps are narrow
+_POOL: Final = 256  # cosines that light and viewer stand at
 _POSES_AT_ONCE: Final = 256  # bounds memory: each has some spectra of up to 8192 values
 
 # Of 1024 samples so many lie below what surely lies above 0.95 of all.
@@ -67,6 +73,19 @@ def p95_guess(found: Terms, truth: Terms) -> float:
     return max(float(np.quantile(each, _BOUND_SHARE)) for each in errors)
 
 
+def doubt_of(plan: LayersPlan, samples: LayerSamples, white: White) -> float:
+    """Return the most, in CIEDE2000, that `samples.truth` is off `layers-single` itself at a few of them."""
+    some = np.linspace(0, len(samples.texel) - 1, _DOUBTED).astype(np.intp)
+    texel = samples.texel[some] if plan.varies else plan.texel.high
+    exact = layer_colours(truth_of("layers"), planned_stack(plan, texel), white=white)
+    cosines = [c[some] for c in (samples.cos_h, samples.cos_i, samples.cos_o)]
+    terms = [exact.reflected(number, *cosines) for number in range(len(plan.layers))]
+    if plan.under == "base":
+        terms.append(exact.passed(*cosines[1:]))
+    errors = (delta_e_2000(a, b[some]) for a, b in zip(terms, samples.truth, strict=True))
+    return max(float(each.max()) for each in errors)
+
+
 def sampled_layers(
     plan: LayersPlan, white: White, *, texels: int, poses: int, seed: int, bands: Sequence[int]
 ) -> LayerSamples:
@@ -80,16 +99,36 @@ def sampled_layers(
     g = np.random.default_rng(seed)
     groups, each = (texels, poses) if plan.varies else (1, texels * poses)
     at = plan.texel.low + (plan.texel.high - plan.texel.low) * g.uniform(size=groups)
-    cos_i, cos_o = g.uniform(size=(2, groups, each))
-    sight = sight_of(plan.host_ior, cos_i, cos_o, np.cos(np.pi * g.uniform(size=(groups, each))))
+    pool = (np.arange(_POOL) + g.uniform(size=_POOL)) / _POOL
+    # Each way takes the whole pool again and again, in orders that do not know of each other.
+    turns = -(-groups * each // _POOL)
+    stand = [
+        np.concatenate([g.permutation(_POOL) for _ in range(turns)])[: groups * each].reshape(groups, each)
+        for _ in range(2)
+    ]
+    turn = np.cos(np.pi * g.uniform(size=(groups, each)))
+    sight = sight_of(plan.host_ior, pool[stand[0]], pool[stand[1]], turn)
+    in_host = cosine_in_host(plan.host_ior, pool)
+    filters = [
+        None if layer.alpha <= ALPHA_MIN else passing_moments(in_host, layer.alpha, _TERMS)
+        for layer in plan.layers
+    ]
     weighings = {b: weighing_of(plan, max(b, 3), white, is_colour=b == COLOURS) for b in bands}
     parts = []
     for group in range(groups):
-        facets = [_Facets.of(plan, layer, at[group], white) for layer in plan.layers]
+        facets = [
+            _Facets.of(plan, layer, at[group], white, moments)
+            for layer, moments in zip(plan.layers, filters, strict=True)
+        ]
         for start in range(0, each, _POSES_AT_ONCE):
             some = slice(start, start + _POSES_AT_ONCE)
-            cosines = [c[group, some] for c in (sight.cos_h, sight.cos_i, sight.cos_o)]
-            parts.append(_colours(facets, cosines, weighings, has_base=plan.under == "base"))
+            ways = [
+                (where[group, some], cosine[group, some])
+                for where, cosine in zip(stand, (sight.cos_i, sight.cos_o), strict=True)
+            ]
+            parts.append(
+                _colours(facets, sight.cos_h[group, some], ways, weighings, has_base=plan.under == "base")
+            )
     return LayerSamples(
         np.repeat(at, each),
         sight.cos_h.reshape(-1),
@@ -102,45 +141,54 @@ def sampled_layers(
 
 @dataclass(frozen=True, slots=True)
 class _Facets:
-    """One layer at one period: spectra by `rule`, and those (terms, k) at `chebyshev_cosines`."""
+    """One layer at one period.
+
+    values : (terms, k) of R at `chebyshev_cosines`, by `rule`; filters : (pool, terms) from them to ∫ R F_α,
+    and g1 : (pool, 1) of ∫ F_α, at the cosines of the pool; None of smooth layers.
+    """
 
     plan: LayersPlan
     layer: PlannedLayer
     texel: Float64
     rule: ColourRule
     values: Float64
+    filters: Float64 | None
+    g1: Float64 | None
 
     @classmethod
-    def of(cls, plan: LayersPlan, layer: PlannedLayer, texel: Float64, white: White) -> _Facets:
+    def of(
+        cls, plan: LayersPlan, layer: PlannedLayer, texel: Float64, white: White, moments: Float64 | None
+    ) -> _Facets:
         rule = layer_rule(plan, white)
+        if moments is None:
+            return cls(plan, layer, texel, rule, np.zeros((0, len(rule.wavelength_nm))), None, None)
         values = layer_spectra(plan, layer, texel, chebyshev_cosines(_TERMS), rule)
-        return cls(plan, layer, texel, rule, values)
+        return cls(plan, layer, texel, rule, values, moments @ to_coefficients(_TERMS), moments[:, :1])
 
     def reflected(self, cosine: Float64) -> Float64:
         """Return R (n, k)."""
         return layer_spectra(self.plan, self.layer, self.texel, cosine, self.rule)
 
-    def passed(self, cosine: Float64) -> Float64:
-        """Return T (n, k)."""
-        if self.layer.alpha <= ALPHA_MIN:
+    def passed(self, where: NDArray[np.intp], cosine: Float64) -> Float64:
+        """Return T (n, k) at `cosine` (n,), those numbered `where` of the pool."""
+        if self.filters is None or self.g1 is None:
             return 1.0 - self.reflected(cosine)
-        moments = passing_moments(cosine, self.layer.alpha, _TERMS)
-        return np.asarray(moments[:, :1] - (moments @ to_coefficients(_TERMS)) @ self.values)
+        return np.asarray(self.g1[where] - self.filters[where] @ self.values)
 
 
 def _colours(
     facets: Sequence[_Facets],
-    cosines: Sequence[Float64],
+    cos_h: Float64,
+    ways: Sequence[tuple[NDArray[np.intp], Float64]],
     weighings: Mapping[int, Weighing],
     *,
     has_base: bool,
 ) -> tuple[Terms, dict[int, Terms]]:
-    """Return the truth, and what each weighing makes of it."""
-    cos_h, cos_i, cos_o = cosines
+    """Return the truth, and what each weighing makes of it; `ways` : of light and viewer, for `passed`."""
     count = len(cos_h)
     # Those of all weighings side by side.
     shares = np.concatenate(
-        [np.zeros((len(facets[0].values.T), 0)), *(w.shares for w in weighings.values())], 1
+        [np.zeros((len(facets[0].rule.weights), 0)), *(w.shares for w in weighings.values())], 1
     )
     ends = np.cumsum([w.shares.shape[1] for w in weighings.values()])
     truth: list[Float64] = []
@@ -157,8 +205,8 @@ def _colours(
         put(reflected * through, (reflected @ shares) * means_through)
         if number == len(facets) - 1 and not has_base:
             break
-        for cosine in (cos_i, cos_o):
-            passed = each.passed(cosine)
+        for where, cosine in ways:
+            passed = each.passed(where, cosine)
             through = through * passed
             means_through = means_through * (passed @ shares)
     if has_base:

@@ -19,7 +19,7 @@ from gltf_iri.evaluation.planned_stack import period_nm
 from gltf_iri.optics.bragg import bragg_reflectance
 from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
 
-__all__ = ["Weighing", "layer_rule", "layer_spectra", "weighing_of"]
+__all__ = ["Weighing", "layer_rule", "layer_spectra", "path_nm", "weighing_of"]
 
 Float64 = NDArray[np.float64]
 
@@ -53,7 +53,7 @@ def weighing_of(plan: LayersPlan, bands: int, white: White, *, is_colour: bool) 
 
 def layer_rule(plan: LayersPlan, white: White) -> ColourRule:
     """Return wavelengths that resolve the layers' resonances, as far as so many can."""
-    turns = 2.0 * HALF_BANDWIDTH_PER_NM * max((_opd_nm(layer) for layer in plan.layers), default=0.0)
+    turns = 2.0 * HALF_BANDWIDTH_PER_NM * path_nm(plan)
     wanted = 2 ** math.ceil(math.log2(max(_A_TURN * turns, _FEWEST)))
     return _midpoints(min(wanted, _MOST), white)
 
@@ -80,10 +80,12 @@ def layer_spectra(
     )
 
 
-def _opd_nm(layer: PlannedLayer) -> float:
-    """Return the path difference of the finest fringes."""
-    path = layer.fill * layer.n1 + (1.0 - layer.fill) * layer.n2
-    return 2.0 * layer.cells * max(layer.period_nm) * path
+def path_nm(plan: LayersPlan) -> float:
+    """Return the path difference of the finest fringes of any layer: through all its cells and back."""
+    return max(
+        2.0 * each.cells * max(each.period_nm) * (each.fill * each.n1 + (1.0 - each.fill) * each.n2)
+        for each in plan.layers
+    )
 
 
 @cache
