@@ -17,7 +17,7 @@ from gltf_iri.optics.chebyshev import LogSeries
 from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN, alpha_ggx, v_smith_ggx_correlated
 from gltf_iri.optics.quadrature import gauss_unit
 
-__all__ = ["facet_cosines", "facet_directions", "facet_mean", "mean_cosine"]
+__all__ = ["facet_cosines", "facet_mean", "mean_cosine"]
 
 Float64 = NDArray[np.float64]
 
@@ -48,19 +48,6 @@ def facet_cosines(
     alpha : perceptual roughness squared, in (0, 1]; both broadcast.
     slopes, turns : Gauss points over θ, for each of two panels, and over φ.
     """
-    v_dot_h, n_dot_l, share = facet_directions(n_dot_v, alpha, slopes=slopes, turns=turns)
-    cosine, a = (np.asarray(x, np.float64)[..., None] for x in (n_dot_v, alpha))
-    return v_dot_h, np.asarray(v_smith_ggx_correlated(n_dot_l, cosine, a) * share)
-
-
-def facet_directions(
-    n_dot_v: ArrayLike, alpha: ArrayLike, *, slopes: int = _SLOPES, turns: int = _TURNS
-) -> tuple[Float64, Float64, Float64]:
-    """Return V·H, N·L and the share of light (..., 2·slopes·turns) that each facet sends, but for V.
-
-    V = G/(4 N·L N·V) is its visibility. Arguments, and where the points lie, as in `facet_cosines`, whose
-    weights are V·share.
-    """
     cosine, a = np.broadcast_arrays(np.asarray(n_dot_v, np.float64), np.asarray(alpha, np.float64))
     # (..., panel, slope, turn)
     cos_v, a = cosine[..., None, None, None], a[..., None, None, None]
@@ -84,9 +71,9 @@ def facet_directions(
     v_dot_h = sin_v * np.sin(theta) * np.cos(phi_max * turn) + cos_v * n_dot_h
     # Rounding may put the last facets' mirror direction a hair below the surface.
     n_dot_l = np.maximum(2.0 * v_dot_h * n_dot_h - cos_v, 0.0)
-    sent = 4.0 * n_dot_l * v_dot_h / n_dot_h * share * phi_max * turn_weights
-    v_dot_h, n_dot_l, sent = (x.reshape(*cosine.shape, -1) for x in (v_dot_h, n_dot_l, sent))
-    return v_dot_h, n_dot_l, sent
+    sent = 4.0 * v_smith_ggx_correlated(n_dot_l, cos_v, a) * n_dot_l * v_dot_h / n_dot_h
+    weights = sent * share * phi_max * turn_weights
+    return v_dot_h.reshape(*cosine.shape, -1), weights.reshape(*cosine.shape, -1)
 
 
 def facet_mean(values: Float64, weights: Float64) -> Float64:
