@@ -79,6 +79,12 @@ class LayersBands:
     def _means(self, number: int, cosine: Float64, *, is_passed: bool) -> Float64:
         """Return (..., B): means of what facets at `cosine` reflect, or of what their layer passes."""
         layer, host = self._stack.layers[number], self._stack.host_ior
+        if layer.shape == host.shape == ():
+            # Sums over a lobe ask for the same few directions over and over.
+            distinct, which = np.unique(cosine, return_inverse=True)
+            if len(distinct) < np.size(cosine):
+                means = self._means(number, distinct, is_passed=is_passed)
+                return np.asarray(means[which.reshape(np.shape(cosine))])
         shape = np.broadcast_shapes(np.shape(cosine), host.shape, layer.shape)
         rule = means_rule(_opd_nm(layer), self._white)
         shares = self._bands.shares(rule)

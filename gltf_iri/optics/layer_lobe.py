@@ -99,7 +99,7 @@ def lobe_nodes(
 
 
 def _outside(cosine: Float64, a: Float64, n: float, count: int) -> tuple[Float64, Float64]:
-    """Return θ and dθ outside (..., 3, count, 1): from the peak to 0 and halfway up, and from 90° to there."""
+    """Return θ and dθ outside (..., 3, count, 1): peak to 0, peak to halfway up, and 90° to there."""
     rough = np.minimum(a, _WIDEST)
     theta_i = np.arcsin(np.sqrt((1.0 - cosine) * (1.0 + cosine)) / n)
     peak = theta_i + 2.0j * np.arctanh(rough)
@@ -126,7 +126,7 @@ def _outside(cosine: Float64, a: Float64, n: float, count: int) -> tuple[Float64
 
 def _towards(centre: ArrayLike, width: Float64, stop: ArrayLike, share: Float64) -> tuple[Float64, Float64]:
     """Return x = p + q sinh v and dx at `share` in [0, 1] of the way from p to `stop`, v being even."""
-    p = np.asarray(centre, np.float64)
-    length = np.arcsinh((stop - p) / width)
+    p, end = np.asarray(centre, np.float64), np.asarray(stop, np.float64)
+    length = np.arcsinh((end - p) / width)
     v = length * share
     return np.asarray(p + width * np.sinh(v)), np.asarray(width * np.cosh(v) * length)
