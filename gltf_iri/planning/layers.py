@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Final
 
+from gltf_iri.errors import UsageError
 from gltf_iri.material.bragg import Bragg, MirrorLayer
 from gltf_iri.material.material import Material
 from gltf_iri.planning.bragg import bragg_verdicts, layer_reflects, period_texel
@@ -31,6 +32,9 @@ _PERIOD_NODES: Final = 64
 _TABLE_BANDS: Final[Mapping[str, int]] = MappingProxyType(
     {"layers-rgb": 3, "layers-bands": 16, "layers-single-table": 64}
 )
+
+# What fills tables of colours, of the methods for mirrors.
+_EXACT: Final = "yeh-spectral"
 
 _ONE_CELL: Final = "one cell in a host of its own n1"
 _NO_CONTRAST: Final = "facets that mirror nothing let all light by"
@@ -67,6 +71,8 @@ def plan_layers(
     texel : what the texture of periods holds (`period_texel`); None where nobody knows.
     tables : their shape; None for what the method is drawn from without a budget.
     folded : reasons for what `simplified` has taken out of `material`.
+
+    Raises UsageError for a `reflectance` of layers-rgb other than the truth, which fills its tables.
     """
     bragg, verdicts = material.bragg, dict(bragg_verdicts(material, folded))
     if bragg is None or material.unlit is not None or verdicts[Effect.BRAGG] is not None:
@@ -87,7 +93,7 @@ def plan_layers(
         under=under,
         texel=texel,
         method=chosen,
-        parameters=dict(parameters),
+        parameters=_told(chosen, parameters),
         tables=tables or default_tables(chosen, texel, is_alone=under == "nothing" and len(layers) == 1),
         delta_e=delta_e,
         ns_per_colour=ns_per_colour,
@@ -129,6 +135,17 @@ def _kept(bragg: Bragg, texel: Span) -> tuple[list[PlannedLayer], list[str]]:
 
 def _period(layer: MirrorLayer, texel: float) -> float:
     return layer.period_min_nm * (1.0 - texel) + layer.period_max_nm * texel
+
+
+def _told(method: str, parameters: Mapping[str, ParameterValue]) -> dict[str, ParameterValue]:
+    """Return the parameters of a plan by `method`: whatever colours mirrors, tables of colours are exact."""
+    if method != "layers-rgb":
+        return dict(parameters)
+    if parameters.get("reflectance", _EXACT) != _EXACT:
+        raise UsageError(
+            f"Layers are drawn by '{method}' from tables of exact colours: leave 'reflectance' out."
+        )
+    return {**parameters, "reflectance": _EXACT}
 
 
 def _is_black(material: Material) -> bool:

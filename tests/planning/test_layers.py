@@ -6,6 +6,7 @@ import json
 
 import pytest
 
+from gltf_iri.errors import UsageError
 from gltf_iri.material.bragg import Bragg, MirrorLayer
 from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.material.texture import TextureInfo
@@ -89,6 +90,14 @@ def test_a_method_for_layers_is_kept_to(method: str, has_tables: bool) -> None:
     assert layers is not None
     assert layers.method == method and layers.reason == "asked for"
     assert (layers.tables is not None) == has_tables
+
+
+def test_tables_of_colours_are_told_as_the_exact_ones_they_are() -> None:
+    material = Material(pbr=WHITE, bragg=Bragg(1.0, layers=(ROUGH, ROUGH)))
+    layers = plan_layers(material, method="layers-rgb")
+    assert layers is not None and layers.parameters == {"reflectance": "yeh-spectral"}
+    with pytest.raises(UsageError, match="exact colours: leave 'reflectance' out"):
+        plan_layers(material, method="layers-rgb", parameters={"reflectance": "bloch"})
 
 
 def test_a_method_for_films_leaves_layers_to_the_plan() -> None:
