@@ -37,14 +37,15 @@ def integrate_colour(
     *,
     white: White,
     opd_nm: Float64 | None = None,
-    is_adaptive: bool = True,
+    max_degree: int | None = None,
 ) -> Float64:
     """Return linear Rec.709 (count, 3) of `count` reflectance spectra.
 
     A row is finished when doubling the wavelengths moves none of its channels by COLOUR_CONVERGENCE.
 
     opd_nm : (count,) path difference of each row's fringes; no row finishes on fewer nodes than resolve it.
-    is_adaptive : go on in panels where the rule of MAX_DEGREE leaves a row open, or leave it at that.
+    max_degree : leave rows at the colour of this degree, a power of two, that it does not settle; without it
+    those that the rule of MAX_DEGREE leaves open go on in panels.
     Raises UsageError where no number of wavelengths settles a colour.
     """
     opd_nm = np.zeros(count) if opd_nm is None else opd_nm
@@ -52,17 +53,19 @@ def integrate_colour(
     still_open = []
     for start in range(0, count, _ROWS_AT_ONCE):
         rows = np.arange(start, min(start + _ROWS_AT_ONCE, count))
-        rgb[rows], open_rows = _integrate_block(reflectance, rows, opd_nm[rows], white)
+        rgb[rows], open_rows = _integrate_block(
+            reflectance, rows, opd_nm[rows], white, max_degree or MAX_DEGREE
+        )
         still_open.append(open_rows)
     rest = np.concatenate([np.zeros(0, dtype=np.intp), *still_open])
-    if not is_adaptive:
+    if max_degree is not None:
         return rgb
     rgb[rest] = integrate_adaptive(reflectance, rest, white=white, opd_nm=opd_nm[rest])
     return rgb
 
 
 def _integrate_block(
-    reflectance: Reflectance, rows: NDArray[np.intp], opd_nm: Float64, white: White
+    reflectance: Reflectance, rows: NDArray[np.intp], opd_nm: Float64, white: White, max_degree: int
 ) -> tuple[Float64, NDArray[np.intp]]:
     """Return the colours (r, 3) of `rows`, and those of the rows that the highest degree leaves open."""
     # The degree at which fringes of this path difference are resolved at all (Nyquist's, in Chebyshev terms).
@@ -73,7 +76,7 @@ def _integrate_block(
     open_rows = np.arange(len(rows))
     values = _sample(reflectance, rows, rule.wavelength_nm)
     result[:] = _weigh(values, rule.weights)
-    while len(open_rows) > 0 and degree < MAX_DEGREE:
+    while len(open_rows) > 0 and degree < max_degree:
         degree *= 2
         rule = colour_rule(degree, white)
         new = _sample(reflectance, rows[open_rows], rule.wavelength_nm[1::2])

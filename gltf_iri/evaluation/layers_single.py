@@ -5,11 +5,22 @@ integrated over the spectrum until no colour moves by COLOUR_CONVERGENCE. Lossle
 averaged at each layer. Stack and cosines broadcast: materials × poses.
 
 T of facets that graze has weak kinks over wavelengths, where resonances vanish at θ_d = π/2, and no rule
-settles to 1e-9 then: colours with a T in them stay at that of MAX_DEGREE (1e-8 for five cells of 240 nm in
-air, against twice as many wavelengths; 1e-6 for ten of 500 nm).
+settles to 1e-9 then: colours with a T in them stay at that of 2048 wavelengths. Measured against 4096, for
+what passes a layer of 1 and 1.5 both ways, at cosines 0.1 to 1, α 0.01 / 0.1 / 0.4:
+
+    cells   of 250 nm            of 500 nm            of 1000 nm
+    5       6e-9 / 1e-7 / 1e-8   2e-9 / 2e-8 / 3e-9   1e-8 / 2e-7 / 2e-8
+    10      2e-8 / 5e-7 / -      7e-9 / 2e-7 / 2e-8
+    20      1e-7 / 1e-6 / 1e-7   2e-7 / 1e-6 / 9e-8
+    50      1e-3 / 4e-6 / 6e-7   2e-3 / 2e-5 / 3e-6
+
+Angles err less: against four times as many by 1e-7 for twenty cells of 500 nm, by 1e-5 for fifty.
+Fifty cells' resonances are narrower than the rule's steps where facets are too smooth to blur them.
 """
 
 from __future__ import annotations
+
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +34,9 @@ from gltf_iri.evaluation.layers import LayeredSurface, LayerStack, evaluate_laye
 __all__ = ["LayersSingle", "evaluate_layers_single"]
 
 Float64 = NDArray[np.float64]
+
+_MAX_DEGREE: Final = 2048  # of colours with a T in them
+
 Rows = NDArray[np.intp]
 
 
@@ -50,7 +64,11 @@ class LayersSingle:
             return product
 
         rgb = integrate_colour(
-            spectrum, len(rows[0]), white=self._white, opd_nm=facets.opd_nm, is_adaptive=layer == 0
+            spectrum,
+            len(rows[0]),
+            white=self._white,
+            opd_nm=facets.opd_nm,
+            max_degree=_MAX_DEGREE if layer > 0 else None,
         )
         return rgb.reshape(*shape, 3)
 
@@ -68,7 +86,7 @@ class LayersSingle:
                 product *= way_out
             return product
 
-        return integrate_colour(spectrum, len(rows[0]), white=self._white, is_adaptive=False).reshape(
+        return integrate_colour(spectrum, len(rows[0]), white=self._white, max_degree=_MAX_DEGREE).reshape(
             *shape, 3
         )
 
@@ -84,7 +102,7 @@ class LayersSingle:
                 product *= each.ways(numbers, wavelength_nm)[0]
             return product
 
-        return integrate_colour(spectrum, len(rows[0]), white=self._white, is_adaptive=False).reshape(
+        return integrate_colour(spectrum, len(rows[0]), white=self._white, max_degree=_MAX_DEGREE).reshape(
             *shape, 3
         )
 
