@@ -10,7 +10,7 @@ what passes a layer of 1 and 1.5 both ways, at cosines 0.1 to 1, α 0.01 / 0.1 /
 
     cells   of 250 nm            of 500 nm            of 1000 nm
     5       6e-9 / 1e-7 / 1e-8   2e-9 / 2e-8 / 3e-9   1e-8 / 2e-7 / 2e-8
-    10      2e-8 / 5e-7 / -      7e-9 / 2e-7 / 2e-8
+    10      2e-8 / 5e-7 / 7e-8   7e-9 / 2e-7 / 2e-8
     20      1e-7 / 1e-6 / 1e-7   2e-7 / 1e-6 / 9e-8
     50      1e-3 / 4e-6 / 6e-7   2e-3 / 2e-5 / 3e-6
 
