@@ -12,7 +12,15 @@ import numpy as np
 
 from gltf_iri.bench.accuracy_entries import Truth, measured, method_entries, table_entries, true_colours
 from gltf_iri.bench.accuracy_glsl import glsl_rows
-from gltf_iri.bench.accuracy_layers import LAYERS, LayerSubject, layer_rows, layer_subject
+from gltf_iri.bench.accuracy_layers import (
+    LAYERS,
+    LayerSubject,
+    layer_rows,
+    layer_subject,
+    layer_truth,
+    stack_tables,
+)
+from gltf_iri.bench.accuracy_layers_glsl import layer_glsl_rows
 from gltf_iri.bench.accuracy_row import AccuracyRow, Errors
 from gltf_iri.bench.accuracy_sets import ACCURACY_SETS
 from gltf_iri.bench.accuracy_tables import Tables, film_tables, look_ups, set_parts
@@ -72,7 +80,11 @@ def measure_set(
     rounds : of the timings; None for as many as some seconds allow.
     """
     if isinstance(subject, LayerSubject):
-        return layer_rows(workload, subject, _PYTHON_S, rounds)
+        of_layers, filled = layer_truth(subject), stack_tables(subject)
+        found = layer_rows(workload, subject, of_layers, filled, _PYTHON_S, rounds)
+        if context is not None:
+            found += layer_glsl_rows(context, workload, subject, of_layers.rgb, filled, _GLSL_S, rounds)
+        return found
     truth = true_colours(subject.colours)
     tables = list(_tables(workload, subject))
     entries = list(method_entries(subject.colours, truth))

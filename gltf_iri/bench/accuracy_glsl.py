@@ -28,7 +28,7 @@ from gltf_iri.rendering.timing import averaging_call, one_channel_call, twin_cal
 if TYPE_CHECKING:
     import moderngl
 
-__all__ = ["TEXTURE", "glsl_rows"]
+__all__ = ["TEXTURE", "glsl_rows", "release_textures"]
 
 # The row of one filtered sample of a material's texture: what leaving one out saves.
 TEXTURE: Final = "texture"
@@ -73,7 +73,7 @@ def glsl_rows(
         times = time_calls(context, calls, rounds=rounds or _ROUNDS, side=_SIDE, limit_s=limit_s)
     finally:
         for call in calls:
-            _release(call)
+            release_textures(call)
     return [
         replace(row, ns_per_eval=max(ns, _LEAST_NS), ns_per_pixel=ns + times.baseline_ns)
         for row, ns in zip(rows, times.ns, strict=True)
@@ -117,9 +117,10 @@ def _looked_up(
     try:
         return call_colours(context, call, len(at.cos_theta_1 if isinstance(at, Film) else at))
     finally:
-        _release(call)
+        release_textures(call)
 
 
-def _release(call: TimedCall) -> None:
+def release_textures(call: TimedCall) -> None:
+    """Give back the textures that `call` was made with."""
     for texture in call.textures.values():
         texture.release()

@@ -16,6 +16,7 @@ from typing import Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.baking.layer_fill import bake_layers
 from gltf_iri.baking.layer_lookup import LayerLookup
 from gltf_iri.bench.accuracy_entries import Entry, measured
@@ -32,13 +33,16 @@ from gltf_iri.planning.reach import Span
 from gltf_iri.planning.settings import ACCURACY_SETTINGS, settings_of, with_defaults
 from gltf_iri.planning.way import Way
 
-__all__ = ["LAYERS", "LayerSubject", "layer_entries", "layer_rows", "layer_subject"]
-__all__ += ["table_entries"]
+__all__ = ["COLOURS_A_POSE", "LAYERS", "LayerSubject", "LayerTruth", "StackTables", "layer_entries"]
+__all__ += ["layer_rows", "layer_subject", "layer_truth", "stack_tables", "table_entries"]
 
 Float64 = NDArray[np.float64]
 
 # The set's name, under which planning/costs.json keeps what its ways cost.
 LAYERS: Final = "layers"
+
+# Of both layers, and of what reaches a base and comes back.
+COLOURS_A_POSE: Final = 3
 
 _STACKS: Final = 4
 _POSES: Final = 8
@@ -59,6 +63,24 @@ class LayerSubject:
     sights: tuple[Sight, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class LayerTruth:
+    """The true colours (n, 3) of a set, and what one of them took."""
+
+    rgb: Float64
+    ns: float
+
+
+@dataclass(frozen=True, slots=True)
+class StackTables:
+    """Filled tables of one size, one a stack; filling_ns is that of one."""
+
+    way: str
+    label: str
+    baked: tuple[BakedLayers, ...]
+    filling_ns: float
+
+
 def layer_subject(stacks: int = _STACKS, poses: int = _POSES) -> LayerSubject:
     """Return so many stacks out of `layer_set`, and as many poses of each, uniform as there."""
     drawn, _ = layer_set(stacks, 2, _MOST_CELLS)
@@ -76,15 +98,39 @@ def layer_subject(stacks: int = _STACKS, poses: int = _POSES) -> LayerSubject:
     return LayerSubject(tuple(found), tuple(sights))
 
 
-def layer_rows(workload: str, subject: LayerSubject, limit_s: float, rounds: int | None) -> list[AccuracyRow]:
-    """Return a row for every method with all its settings, timed in turn; the truth as it is evaluated."""
+def layer_rows(
+    workload: str,
+    subject: LayerSubject,
+    truth: LayerTruth,
+    tables: Sequence[StackTables],
+    limit_s: float,
+    rounds: int | None,
+) -> list[AccuracyRow]:
+    """Return a row for every method with all its settings and for `tables`, timed in turn."""
     name = truth_of("layers")
-    start = time.perf_counter()
-    truth = _colours(_methods(name, subject, {}), subject)
-    ns = 1e9 * (time.perf_counter() - start) / len(truth)
-    exact = AccuracyRow(workload, "numpy", name, name, name, ns, Errors(0.0, 0.0, 0.0, 0.0, 0))
-    entries = [*layer_entries(subject, truth), *table_entries(subject, truth)]
+    exact = AccuracyRow(workload, "numpy", name, name, name, truth.ns, Errors(0.0, 0.0, 0.0, 0.0, 0))
+    entries = [*layer_entries(subject, truth.rgb), *table_entries(tables, subject, truth.rgb)]
     return [exact, *measured(workload, entries, limit_s, rounds)]
+
+
+def layer_truth(subject: LayerSubject) -> LayerTruth:
+    """Return the true colours of `subject`, evaluated once."""
+    start = time.perf_counter()
+    rgb = _colours(_methods(truth_of("layers"), subject, {}), subject)
+    return LayerTruth(rgb, 1e9 * (time.perf_counter() - start) / len(rgb))
+
+
+def stack_tables(subject: LayerSubject) -> list[StackTables]:
+    """Return tables of colours and of bands, filled, along the cosine only."""
+    found = []
+    for bands in _TABLE_BANDS:
+        tables = LayerTables(bands, bands == _COLOUR, _COS_NODES, 1, "f4", 0.0)
+        start = time.perf_counter()
+        baked = tuple(bake_layers(_plan(stack, tables), WHITE) for stack in subject.stacks)
+        filling_ns = 1e9 * (time.perf_counter() - start) / len(baked)
+        way = f"table of {'colours' if tables.is_colour else f'{bands} bands'}"
+        found.append(StackTables(way, f"{way}: cos_theta {_COS_NODES}, RGBA32F", baked, filling_ns))
+    return found
 
 
 def layer_entries(subject: LayerSubject, truth: Float64) -> Iterator[Entry]:
@@ -101,17 +147,11 @@ def layer_entries(subject: LayerSubject, truth: Float64) -> Iterator[Entry]:
             yield replace(second, method=name, parameters=values, filling_ns=fills)
 
 
-def table_entries(subject: LayerSubject, truth: Float64) -> Iterator[Entry]:
-    """Yield the look-ups in tables of colours and of bands, along the cosine only."""
-    for bands in _TABLE_BANDS:
-        tables = LayerTables(bands, bands == _COLOUR, _COS_NODES, 1, "f4", 0.0)
-        start = time.perf_counter()
-        baked = [bake_layers(_plan(stack, tables), WHITE) for stack in subject.stacks]
-        filling_ns = 1e9 * (time.perf_counter() - start) / len(baked)
-        what = "colours" if tables.is_colour else f"{bands} bands"
-        entry = _entry(f"table of {what}", subject, [LayerLookup(each) for each in baked], truth)
-        label = f"table of {what}: cos_theta {_COS_NODES}, RGBA32F"
-        yield replace(entry, label=label, filling_ns=filling_ns)
+def table_entries(tables: Sequence[StackTables], subject: LayerSubject, truth: Float64) -> Iterator[Entry]:
+    """Yield the look-ups in `tables`."""
+    for each in tables:
+        entry = _entry(each.way, subject, [LayerLookup(baked) for baked in each.baked], truth)
+        yield replace(entry, label=each.label, filling_ns=each.filling_ns)
 
 
 def _plan(stack: LayerStack, tables: LayerTables) -> LayersPlan:
@@ -140,7 +180,7 @@ def _methods(name: str, subject: LayerSubject, values: dict[str, float | str]) -
 
 
 def _colours(methods: Sequence[LayerColours], subject: LayerSubject) -> Float64:
-    """Return (stacks · poses · 3, 3): of both layers and of what reaches the base and comes back."""
+    """Return (stacks · 3 · poses, 3): of the first layer, of the second, and of what passes both."""
     found = []
     for method, sight in zip(methods, subject.sights, strict=True):
         cosines = sight.cos_h, sight.cos_i, sight.cos_o

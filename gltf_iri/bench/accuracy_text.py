@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final
 
+from gltf_iri.bench.accuracy_layers import LAYERS
 from gltf_iri.bench.accuracy_row import SHADINGS, AccuracyRow
 from gltf_iri.bench.pareto import BEATEN, LEAST, MOST, Standing, by_set_and_device, front, is_ours, standings
 from gltf_iri.planning.method import METHODS
@@ -17,14 +18,16 @@ END: Final = "<!-- /accuracy -->"
 
 _DEVICES: Final = ("numpy", "numba", "glsl")
 
-# What stands in the README: the films and the mirrors that the methods' descriptors state errors of.
+# What stands in the README: the films, mirrors and layers that the methods' descriptors state errors of.
 _SHOWN: Final[Mapping[str, str]] = {
     "films": "1,200 dielectric films",
     "mirrors-20": "300 mirrors of 20 cells",
+    LAYERS: "4 stacks of two rough layers, and what passes both",
 }
 _TABLES_SHOWN: Final = (
     *("table: cos_theta 64, RGBA16F", "table: cos_theta 256, RGBA32F"),
     "table: cos_theta 64, thickness_nm 128, RGBA16F",
+    *(f"table of {held}: cos_theta 256, RGBA32F" for held in ("colours", "16 bands")),
 )
 
 

@@ -12,6 +12,9 @@ from gltf_iri.planning.method_type import Method, Parameter
 
 __all__ = ["LAYER_METHODS"]
 
+# Twins have two functions: stack_passed stands beside it.
+_TWIN: Final = "stack_reflected"
+
 LAYER_METHODS: Final = (
     Method(
         "layers-single",
@@ -19,8 +22,9 @@ LAYER_METHODS: Final = (
         "Paths that reflect once, every factor a spectrum, multiplied and integrated until it settles.",
         "Fourneau et al. 2024, Eq. 28 and 34; the filter in closed form",
         is_truth=True,
-        glsl_function=None,
+        glsl_function=_TWIN,
         delta_e_mean=0.0,
+        glsl_tables=("spectral_rule",),
     ),
     Method(
         "layers-single-table",
@@ -29,7 +33,7 @@ LAYER_METHODS: Final = (
         "Fourneau et al. 2024, §5, Model-LUT; linear between even cosines, a fixed rule of wavelengths",
         is_truth=False,
         glsl_function=None,
-        delta_e_mean=None,
+        delta_e_mean=0.0048,
         parameters=(
             Parameter("nodes", "Cosines from 0 to 1 of each table.", 512, 16.0, 8192.0),
             Parameter(
@@ -43,8 +47,8 @@ LAYER_METHODS: Final = (
         "Paths that reflect once, every factor a colour, and colours multiplied.",
         "Fourneau et al. 2024, Eq. 28 and 34, over the RGB reflectances of §3.2 or of this project",
         is_truth=False,
-        glsl_function=None,
-        delta_e_mean=None,
+        glsl_function=_TWIN,  # which samples the tables of the method for mirrors
+        delta_e_mean=2.5,
         parameters=(
             Parameter(
                 "reflectance",
@@ -60,8 +64,9 @@ LAYER_METHODS: Final = (
         "Every factor as its means over a few overlapping bands, multiplied band by band.",
         "this project; spec/decisions/layers-bands.md",
         is_truth=False,
-        glsl_function=None,
-        delta_e_mean=None,
+        glsl_function=_TWIN,
+        delta_e_mean=0.065,
+        glsl_tables=("spectral_rule", "layer_bands"),
         parameters=(Parameter("bands", "How many bands.", 16, 3.0, 64.0),),
     ),
 )

@@ -22,6 +22,7 @@ PYTHON = {"khr": evaluate_khr, "khr-guarded": evaluate_khr_guarded}
 # Compared in the files of tests beside this one that have their names.
 ELSEWHERE = {"fourier", "spectral", "incoherent", "granier-heidrich"}
 ELSEWHERE |= {"yeh-spectral", "landmarks", "landmarks-sub", "bloch"}
+ELSEWHERE |= {"layers-single", "layers-rgb", "layers-bands"}
 
 POLE = "Fresnel0ToIor"  # the undefined case in which the text divides by zero
 

@@ -17,4 +17,7 @@ def block(text: str) -> str:
 def test_the_table_of_accuracy_is_the_maps_own() -> None:
     printed = block((ROOT / "README.md").read_text(encoding="utf-8"))
     assert printed == block((ROOT / "spec/accuracy/accuracy.md").read_text(encoding="utf-8"))
-    assert all(f"| `{name}` |" in printed for name in (*method_names("film"), *method_names("mirror")))
+    assert all(
+        f"| `{name}` |" in printed
+        for name in (*method_names("film"), *method_names("mirror"), *method_names("layers"))
+    )
