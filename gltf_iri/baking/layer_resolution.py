@@ -17,7 +17,16 @@ from numpy.typing import NDArray
 from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.baking.layer_fill import filled_layers
 from gltf_iri.baking.layer_lookup import LayerLookup
-from gltf_iri.baking.layer_samples import COLOURS, LayerSamples, Terms, p95_below, p95_guess, sampled_layers
+from gltf_iri.baking.layer_samples import (
+    COLOURS,
+    LayerSamples,
+    Terms,
+    doubt_of,
+    p95_below,
+    p95_guess,
+    sampled_layers,
+)
+from gltf_iri.baking.layer_spectra import path_nm
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
 from gltf_iri.planning.film_table import Texel
@@ -30,8 +39,11 @@ LAYER_BANDS: Final = (COLOURS, 4, 8, 12, 16, 20, 24, 32, 48, 64)
 
 _BYTES_MAX: Final = 16 << 20
 
+# Light that travels further in a layer has fringes that take the truth minutes.
+_PATH_MAX_NM: Final = 5e6
+
 _AIMED_AT: Final = 0.9  # of the budget
-_BANDS_SHARE: Final = 0.8  # of what is aimed at, that bands may take without tables
+_BANDS_SHARE: Final = 0.95  # of what is aimed at, that bands may take without tables
 
 # Random values of the texture, and poses at each; for one period all at it.
 _MEASURED: Final = (24, 16)
@@ -61,17 +73,25 @@ def fit_layer_tables(plan: LayersPlan, budget: float, *, white: White = "D65") -
     """Return the smallest tables found, of as few bands as do, whose p95 of CIEDE2000 keeps `budget`.
 
     `delta_e` of the tables is a number that the p95 against single reflections lies below at other poses:
-    of each layer's reflection through those above, and of what passes all.
+    of each layer's reflection through those above, and of what passes all. What the samples' own spectra are
+    off by `layers-single`, at a few of them, is in it.
 
-    Raises UsageError for a budget of 0 or less.
+    Raises UsageError for a budget of 0 or less, and for layers whose fringes are too fine to be judged.
     """
     if not budget > 0.0:
         raise UsageError("Tables err: their budget must be greater than 0.")
     choices = LAYER_BANDS if needs_products(plan) else (COLOURS,)
+    if path_nm(plan) > _PATH_MAX_NM:
+        raise UsageError(
+            f"Layers in which light travels {1e-6 * path_nm(plan):.3g} mm are not held to budgets: fringes"
+            " so fine cannot be judged. Leave the budget out, or ask for 0, the truth itself."
+        )
+    texels, poses = _CHECKED
+    checked = sampled_layers(plan, white, texels=texels, poses=poses, seed=2, bands=())
+    doubt = doubt_of(plan, checked, white)
     texels, poses = _MEASURED
     seen = sampled_layers(plan, white, texels=texels, poses=poses, seed=1, bands=choices)
-    best, target = np.inf, _AIMED_AT * budget
-    checked: LayerSamples | None = None
+    best, target = np.inf, _AIMED_AT * budget - doubt
     for bands in choices:
         alone = p95_guess(seen.by_bands[bands], seen.truth)
         best = min(best, alone)
@@ -83,14 +103,11 @@ def fit_layer_tables(plan: LayersPlan, budget: float, *, white: White = "D65") -
             best = min(best, least)
             if baked is None:
                 break
-            if checked is None:
-                texels, poses = _CHECKED
-                checked = sampled_layers(plan, white, texels=texels, poses=poses, seed=2, bands=())
-            delta_e = p95_below(lookup_terms(baked, checked), checked.truth)
+            delta_e = p95_below(lookup_terms(baked, checked), checked.truth) + doubt
             if delta_e <= budget:
                 return LayerFit(replace(_tables(baked), delta_e=delta_e), delta_e)
             aim *= _AIMED_AT * budget / delta_e
-    return LayerFit(None, float(best))
+    return LayerFit(None, float(best) + doubt)
 
 
 def lookup_terms(baked: BakedLayers, samples: LayerSamples) -> Terms:
@@ -123,7 +140,7 @@ def _smallest(
         hurts = [error(halved) if (halved := _halved(baked, axis)) is not None else 0.0 for axis in (0, 1)]
         cells[int(np.argmax(hurts))] *= 2
         tables = LayerTables(max(bands, 3), bands == COLOURS, cells[0] + 1, cells[1] + 1, "f2", 0.0)
-        if tables.bytes(len(plan.layers)) > _BYTES_MAX or max(cells) > _CELLS_MAX:
+        if tables.bytes(plan) > _BYTES_MAX or max(cells) > _CELLS_MAX:
             return None, best
         baked = filled(*cells)
     best = min(best, now)
@@ -136,7 +153,7 @@ def _smallest(
                 baked, is_shrinking = halved, True
     half = _rounded(baked, "f2")
     baked = half if error(half) <= target else baked
-    return (baked if _tables(baked).bytes(len(plan.layers)) <= _BYTES_MAX else None), best
+    return (baked if _tables(baked).bytes(plan) <= _BYTES_MAX else None), best
 
 
 def _tables(baked: BakedLayers) -> LayerTables:

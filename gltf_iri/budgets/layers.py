@@ -7,6 +7,7 @@ against `layers-single` lies below, over poses whose cosines are uniform (`gltf_
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, replace
 from typing import Final
 
@@ -21,7 +22,10 @@ from gltf_iri.tolerances import GLSL_FILM_DELTA_E
 
 __all__ = ["AskedOfLayers", "choose_layers", "layer_table_ns", "look_ups"]
 
-_TEXTURE: Final = "texture"  # what the map of costs calls a look-up in a texture
+# What the map of costs calls them.
+_WORKLOAD: Final = "layers"
+_OF_COLOURS: Final = "table of colours"
+_OF_BANDS: Final = re.compile(r"table of (\d+) bands")
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +44,7 @@ def choose_layers(plan: LayersPlan, asked: AskedOfLayers, subject: str) -> Layer
     """
     budget = check_budget(asked.budget)
     if budget == 0.0:
-        ns = shipped_costs().ns_per_colour(asked.device, "layers", truth_of("layers"))
+        ns = shipped_costs().ns_per_colour(asked.device, _WORKLOAD, truth_of("layers"))
         return replace(
             plan,
             method=truth_of("layers"),
@@ -64,7 +68,7 @@ def choose_layers(plan: LayersPlan, asked: AskedOfLayers, subject: str) -> Layer
         )
     tables = fit.tables
     ns, delta_e = layer_table_ns(plan, tables, asked.device), tables.delta_e + floor
-    size = tables.bytes(len(plan.layers)) / 1024.0
+    size = tables.bytes(plan) / 1024.0
     what = "colours" if tables.is_colour else f"{tables.bands} bands"
     return replace(
         plan,
@@ -87,9 +91,16 @@ def look_ups(plan: LayersPlan, tables: LayerTables) -> int:
 
 
 def layer_table_ns(plan: LayersPlan, tables: LayerTables, device: Device) -> float:
-    """Return what one colour costs out of `tables`, by the map's price of a texture's look-up."""
-    costs = shipped_costs()
-    one = costs.ns_per_colour(device, "films", _TEXTURE)
-    if one is None:  # Python looks up in tables of films alike
-        one = costs.ns_of(device, "films", "table of 2 axes")
-    return one * look_ups(plan, tables)
+    """Return what one light's colour costs out of `tables`: its look-ups, each at what the map's cost.
+
+    The map has tables of colours and of some numbers of bands; the nearest one's look-ups stand for these.
+    """
+    known = shipped_costs().ns.get(device, {}).get(_WORKLOAD) or shipped_costs().ns["numpy"][_WORKLOAD]
+    held = {3: known[_OF_COLOURS]}
+    if not tables.is_colour:
+        found = {label: _OF_BANDS.fullmatch(label) for label in known}
+        held = {int(match[1]): known[label] for label, match in found.items() if match}
+    nearest = min(held, key=lambda bands: abs(bands - tables.bands))
+    # Two layers over a base, whose three terms the map counts as colours.
+    quads = -(-nearest // 4)
+    return 3.0 * held[nearest] / (1 + quads + 4 * quads) * look_ups(plan, tables)
