@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from gltf_iri.backends import choose_backend
+from gltf_iri.cli.budget import nanoseconds
 from gltf_iri.cli.common import note, print_table
 from gltf_iri.planning.method import DEFAULT_LAYERS_METHOD, find_method, parameters_text
 
@@ -46,7 +48,6 @@ def layer_options(command: Any) -> Any:
 def from_layers(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> dict[str, Any]:
     """Return what `evaluate --json` prints of the layers `given`; a film's options are refused."""
     from gltf_iri.colour.spaces import WHITES
-    from gltf_iri.errors import UsageError
     from gltf_iri.evaluation.layer_energy import stack_energy
     from gltf_iri.evaluation.layer_methods import layer_colours
     from gltf_iri.evaluation.layers import BraggLayer, LayerBase, LayerStack, Pose
@@ -55,8 +56,6 @@ def from_layers(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> 
     for option, value in given.items():
         if value is not None and option not in _OF_LAYERS:
             raise click.UsageError(f"layers have no --{option.replace('_', '-')}; leave it out")
-    if how.budget is not None:
-        raise UsageError("A budget does not choose among methods for layers yet: name a --method.")
     if given["base_alpha"] is not None and given["base_metal"] is None:
         raise click.UsageError("--base-alpha is the roughness of --base-metal; give both")
     layers = tuple(BraggLayer.of(*values) for values in given["layer"])
@@ -70,9 +69,17 @@ def from_layers(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> 
     host = given["host_ior"]
     # Layers lie in their host: where nobody names it, it is what the first of them says.
     stack = LayerStack.of(layers, float(layers[0].n1) if host is None else host, base)
-    method = find_method(how.method or DEFAULT_LAYERS_METHOD, "layers")
+    name, kept = how.method or DEFAULT_LAYERS_METHOD, {}
+    chosen: Mapping[str, Any] = how.parameters
+    if how.budget is not None:
+        from gltf_iri.budgets.stacks import way_for_stack
+
+        way = way_for_stack(stack, how.budget, white=how.white).way
+        name, chosen = str(way.method), way.parameters
+        kept = {"delta_e": way.delta_e, "ns_per_colour": way.ns_per_colour}
+    method = find_method(name, "layers")
     backend = choose_backend(how.backend, len(cosines), method.backends, method.name)
-    colours = layer_colours(method.name, stack, white=how.white, parameters=how.parameters)
+    colours = layer_colours(method.name, stack, white=how.white, parameters=chosen)
     white = next(name for name in WHITES if name == how.white)  # `layer_colours` knows it
     energy = stack_energy(stack, Pose.of(cosines, 1.0).cos_theta_i, colours, white)
     return {
@@ -84,7 +91,8 @@ def from_layers(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> 
         "absorbed": energy.absorbed,
         "from_base": energy.from_base,
         "backend": backend,
-        "parameters": checked_parameters(method, how.parameters),
+        "parameters": checked_parameters(method, chosen),
+        **kept,
         "undefined": {},
     }
 
@@ -106,7 +114,12 @@ def print_layers(result: dict[str, Any]) -> None:
         )
     ]
     method = ", ".join(filter(None, (result["method"], parameters_text(result["parameters"]))))
-    title = f"{method}, by {result['backend']}, {result['white']} white, linear Rec.709"
+    kept = ""
+    if "delta_e" in result:
+        from gltf_iri.budgets.search import figure
+
+        kept = f", ΔE ≤ {figure(result['delta_e'])} for {nanoseconds(result['ns_per_colour'])} a colour"
+    title = f"{method}{kept}, by {result['backend']}, {result['white']} white, linear Rec.709"
     print_table(columns, rows, title=title)
     note("Light that is reflected more than once is not sent back; it counts as absorbed.")
 

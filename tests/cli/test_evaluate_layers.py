@@ -49,7 +49,7 @@ def test_people_get_a_row_for_each_angle(capsys: pytest.CaptureFixture[str]) -> 
         (["--base-diffuse", "0.5"], "give --layer too"),
         ([*UPPER, "--film-ior", "1.3"], "no --film-ior"),
         ([*UPPER, "--base-alpha", "0.2"], "give both"),
-        ([*UPPER, "--budget", "1"], "budget"),
+        ([*UPPER, "--budget", "-1"], "A budget is"),
         ([*UPPER, "--method", "khr"], "no method 'khr' for layers"),
         ([*UPPER, "--cos", "1.5"], "must lie in [0, 1]"),
         ([*UPPER, "--white", "D50"], "no white 'D50'"),
@@ -62,3 +62,11 @@ def test_what_makes_no_sense_is_refused_in_one_sentence(
 ) -> None:
     assert run(["evaluate", *arguments]) != 0
     assert says in capsys.readouterr().err
+
+
+def test_a_budget_chooses_the_method_and_tells_what_it_errs(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["evaluate", *UPPER, "--cos", "1", "--budget", "1", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert told["delta_e"] <= 1.0 and told["ns_per_colour"] > 0.0
+    assert run(["evaluate", *UPPER, "--cos", "1", "--budget", "0"]) == 0
+    assert "layers-single, ΔE ≤ 0" in capsys.readouterr().out
