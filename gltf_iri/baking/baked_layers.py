@@ -23,10 +23,13 @@ class BakedLayers:
     first : (P, C, 4) the first layer's reflection as a colour, the fourth number 0.
     reflected, transmitted : (L, P, C, B') mean reflectance and transmissivity of each band in one direction,
         B' = B rounded up to fours, what is beyond B is 0.
-    first_albedo : (P, C, 4), albedo : (L, P, C, B') ∫ R w dω over the lobe at N·V: what the layer alone sends
-        of a white sky, as `first` and `reflected` do of one direction.
-    irradiance : (L, P, B') what of a white sky that has passed those above passes the layer, too: the product
-        over all layers is the mean of ∏ T_k over the sky, as the coating lets it in.
+    What becomes of a white sky, seen at the cosine in the host, are colours of whole spectra: with what
+    passes the layers above on either way, and what the host's surface lets in, but not what it lets out. The
+    fourth number is 0.
+
+    sent : (L, P, C, 4) by each layer's facets. scattered : (P, C, 4) by a white Lambertian base, as if it lay
+        in the host. mirrored : (R, 2, P, C, 4) by a metal, F0·[r, 0] + [r, 1] at the R roughnesses that
+        divide the plan's `metal_roughness`.
     weights : (B', 3) the bands' weights, linear Rec.709, columns sum to 1; 3 × 3 unity and 0 for colours.
     filled_in_s : seconds that filling took, now or when it was put into the cache.
     is_cached : True where it was read from the cache.
@@ -36,9 +39,9 @@ class BakedLayers:
     first: Floats
     reflected: Floats
     transmitted: Floats
-    first_albedo: Floats
-    albedo: Floats
-    irradiance: Float64
+    sent: Floats
+    scattered: Floats
+    mirrored: Floats
     weights: Float64
     white: str
     filled_in_s: float = 0.0

@@ -15,7 +15,7 @@ from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
 from gltf_iri.planning.layer_plan import LayersPlan, LayerTables
 
-__all__ = ["layer_shapes", "layer_weights", "read_layers", "write_layers"]
+__all__ = ["layer_shapes", "layer_weights", "read_layers", "sky_shapes", "write_layers"]
 
 Float64 = NDArray[np.float64]
 
@@ -32,9 +32,17 @@ def layer_shapes(plan: LayersPlan, tables: LayerTables) -> dict[str, tuple[int, 
         "first": (*nodes, 4),
         "reflected": every,
         "transmitted": every,
-        "first_albedo": (*nodes, 4),
-        "albedo": every,
-        "irradiance": (layers, tables.period_nodes, fours),
+        **sky_shapes(plan, tables),
+    }
+
+
+def sky_shapes(plan: LayersPlan, tables: LayerTables) -> dict[str, tuple[int, ...]]:
+    """Return the shapes of the arrays of `BakedLayers` that image light alone reads."""
+    nodes = (tables.period_nodes, tables.cos_nodes, 4)
+    return {
+        "sent": (len(plan.layers), *nodes),
+        "scattered": nodes,
+        "mirrored": (plan.metal_nodes, 2, *nodes),
     }
 
 
@@ -58,7 +66,7 @@ def read_layers(cache: TableCache, plan: LayersPlan, white: White) -> BakedLayer
     values, filled_in_s = found
     parts = np.split(values, np.cumsum(sizes)[:-1])
     arrays: dict[str, Any] = {
-        name: part.reshape(shape).astype(np.float64 if name == "irradiance" else tables.texel)
+        name: part.reshape(shape).astype(tables.texel)
         for (name, shape), part in zip(shapes.items(), parts, strict=True)
     }
     return BakedLayers(
@@ -88,6 +96,7 @@ def _tables(plan: LayersPlan) -> LayerTables:
 
 def _description(plan: LayersPlan, tables: LayerTables, white: White) -> bytes:
     """Return all that the texels depend on."""
+    metal = plan.metal_roughness
     return described(
         {
             "white": str(white),
@@ -101,6 +110,8 @@ def _description(plan: LayersPlan, tables: LayerTables, white: White) -> bytes:
                 ]
                 for layer in plan.layers
             ],
+            "under": plan.under,
+            "metal": None if metal is None else [float(metal.low).hex(), float(metal.high).hex()],
             "texel": [float(plan.texel.low).hex(), float(plan.texel.high).hex()],
             "tables": [tables.bands, tables.is_colour, tables.cos_nodes, tables.period_nodes, tables.texel],
         }

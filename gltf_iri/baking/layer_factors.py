@@ -1,7 +1,7 @@
-"""What one layer reflects, lets pass and sends of a white sky, over the period and the cosine.
+"""What one layer reflects and lets pass, over the period and the cosine.
 
-All are linear in the reflectance. So spectra are asked for at the tables' own cosines, and at Chebyshev
-points, of which matrices make the means over facets: by the filter F_α and over the lobe (`facet_matrix`).
+Both are linear in the reflectance. So spectra are asked for at the tables' own cosines, and at Chebyshev
+points, of which matrices make means over facets (`facet_matrix`): by the filter F_α, and over a lobe.
 """
 
 from __future__ import annotations
@@ -14,29 +14,23 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
-from gltf_iri.baking.facet_matrix import chebyshev_cosines, chebyshev_moments, terms_for, to_coefficients
+from gltf_iri.baking.facet_matrix import chebyshev_cosines, terms_for, to_coefficients
 from gltf_iri.baking.layer_spectra import Weighing, layer_spectra
 from gltf_iri.optics.filter_panels import FilterPanels
-from gltf_iri.optics.layer_lobe import layer_lobe
-from gltf_iri.optics.layer_stack import coating_transmittance, cosine_in_host
-from gltf_iri.optics.microfacet import ALPHA_MIN, N_DOT_V_MIN
-from gltf_iri.optics.quadrature import gauss_unit
+from gltf_iri.optics.microfacet import ALPHA_MIN
 from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
 
-__all__ = ["LayerFactors", "SkyFactors", "layer_factors", "passing_moments", "sky_factors"]
-__all__ += ["sky_nodes"]
+__all__ = ["LayerFactors", "layer_factors", "passed_at", "passing_moments"]
 
 Float64 = NDArray[np.float64]
 
 _VALUES_AT_ONCE: Final = 1 << 22  # bounds memory, and how long an interrupt waits
-_ROWS_AT_ONCE: Final = 64  # of 768 points of a lobe: their numbers stay in a core's cache
+_ROWS_AT_ONCE: Final = 64  # of 1536 points of a lobe: their numbers stay in a core's cache
 
 # What means over facets may err by, about: half precision rounds by more.
 _MAX_ERROR: Final = 2e-5
 
-_SKY_NODES: Final = 48
 _PANELS: Final = 64  # of 16 angles of the filter: series of 384 terms swing half as often
-_LOBE: Final = {"slopes": 48, "turns": 16}
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,89 +38,55 @@ class LayerFactors:
     """Of one layer, at p texels and c cosines.
 
     reflected, transmitted : (p, c, B) as a `Weighing` keeps them; colour : (p, c, 3) of what is reflected.
-    series : (p, terms, B + 3), Chebyshev coefficients over the cosine of reflected and colour.
+    colour_series : (p, terms, 3), sky_series : (p, terms, S), Chebyshev coefficients over the cosine of
+        what is reflected, as a colour and by the sums that were asked for.
     """
 
     reflected: Float64
     colour: Float64
     transmitted: Float64
-    series: Float64
-
-
-@dataclass(frozen=True, slots=True)
-class SkyFactors:
-    """What a layer makes of a white sky, as `BakedLayers` has it.
-
-    albedo : (p, c, B); colour : (p, c, 3) of it.
-    passed : (p, s, B), what passes of light from the directions of `sky_nodes`.
-    """
-
-    albedo: Float64
-    colour: Float64
-    passed: Float64
+    colour_series: Float64
+    sky_series: Float64
 
 
 def layer_factors(
-    plan: LayersPlan, layer: PlannedLayer, texel: Float64, cosines: Float64, weighing: Weighing
+    plan: LayersPlan,
+    layer: PlannedLayer,
+    texel: Float64,
+    cosines: Float64,
+    weighing: Weighing,
+    sky_shares: Float64,
 ) -> LayerFactors:
-    """Return the factors of `layer` at the texels (p,) and the cosines (c,) in the host."""
-    both = np.concatenate([weighing.shares, weighing.rule.weights], axis=1)
+    """Return the factors of `layer` at the texels (p,) and the cosines (c,) in the host.
 
-    def kept(at: Float64, texels: Float64) -> Float64:
-        """Return (texels, at, B + 3)."""
-        step = max(1, _VALUES_AT_ONCE // (len(at) * len(both)))
+    sky_shares : (k, S) of more sums over the wavelengths of the weighing's rule.
+    """
+    rule, bands = weighing.rule, weighing.shares.shape[1]
+    both = np.concatenate([weighing.shares, rule.weights], axis=1)
+    all_sums = np.concatenate([both, sky_shares], axis=1)
+
+    def kept(at: Float64, texels: Float64, sums: Float64) -> Float64:
+        """Return (texels, at, sums)."""
+        step = max(1, _VALUES_AT_ONCE // (len(at) * len(sums)))
         parts = [
-            layer_spectra(plan, layer, texels[i : i + step, None], at, weighing.rule) @ both
+            layer_spectra(plan, layer, texels[i : i + step, None], at, rule) @ sums
             for i in range(0, len(texels), step)
         ]
         return np.concatenate(parts)
 
-    bands = weighing.shares.shape[1]
-    direct = kept(cosines, texel)
+    direct = kept(cosines, texel, both)
     hardest = texel[[0, len(texel) // 2, -1]]
-    terms = terms_for(lambda at: kept(at, hardest), _MAX_ERROR)
-    values = kept(chebyshev_cosines(terms), texel)
+    terms = terms_for(lambda at: kept(at, hardest, both), _MAX_ERROR)
+    values = kept(chebyshev_cosines(terms), texel, all_sums)
     series = np.einsum("jk,pkb->pjb", to_coefficients(terms), values)
+    of_bands, of_colour, of_sky = np.split(series, [bands, bands + 3], axis=2)
     reflected = direct[..., :bands]
-    if layer.alpha <= ALPHA_MIN:
-        transmitted = 1.0 - reflected
-    else:
-        transmitted = _passed(cosines, layer.alpha, series[..., :bands])
-    return LayerFactors(reflected, direct[..., bands:], transmitted, series)
+    smooth = layer.alpha <= ALPHA_MIN
+    transmitted = 1.0 - reflected if smooth else passed_at(cosines, layer.alpha, of_bands)
+    return LayerFactors(reflected, direct[..., bands:], transmitted, of_colour, of_sky)
 
 
-def sky_nodes(host_ior: float) -> tuple[Float64, Float64]:
-    """Return cosines in the host and weights (s,) of a mean over a white sky, as the coating lets it in.
-
-    2∫ f T c dc / 2∫ T c dc over the cosine c outside, T the coating's transmittance.
-    """
-    nodes, weights = gauss_unit(_SKY_NODES)
-    entering = nodes * weights * coating_transmittance(host_ior, nodes)
-    return cosine_in_host(host_ior, nodes), np.asarray(entering / np.sum(entering))
-
-
-def sky_factors(layer: PlannedLayer, factors: LayerFactors, cosines: Float64, sky: Float64) -> SkyFactors:
-    """Return what the layer of `factors` makes of a white sky at the cosines (c,).
-
-    sky : the cosines (s,) of `sky_nodes`.
-    """
-    series = factors.series
-    bands = factors.reflected.shape[-1]
-    moments = np.concatenate(
-        [
-            chebyshev_moments(
-                *layer_lobe(np.maximum(cosines[i : i + _ROWS_AT_ONCE], N_DOT_V_MIN), layer.alpha, **_LOBE),
-                series.shape[1],
-            )
-            for i in range(0, len(cosines), _ROWS_AT_ONCE)
-        ]
-    )
-    albedo = np.einsum("cj,pjb->pcb", moments, series)
-    passed = _passed(sky, layer.alpha, series[..., :bands])
-    return SkyFactors(albedo[..., :bands], albedo[..., bands:], passed)
-
-
-def _passed(cosines: Float64, alpha: float, series: Float64) -> Float64:
+def passed_at(cosines: Float64, alpha: float, series: Float64) -> Float64:
     """Return (p, c, B), T = ∫ (1 − R) F_α dθ_d of a series (p, terms, B) of R; of smooth layers 1 − R."""
     moments = passing_moments(cosines, alpha, series.shape[1])
     return np.asarray(moments[:, :1] - np.einsum("cj,pjb->pcb", moments, series))

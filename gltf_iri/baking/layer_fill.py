@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.baking.cache import TableCache
-from gltf_iri.baking.layer_cache import read_layers, write_layers
-from gltf_iri.baking.layer_factors import LayerFactors, SkyFactors, layer_factors, sky_factors, sky_nodes
+from gltf_iri.baking.layer_cache import read_layers, sky_shapes, write_layers
+from gltf_iri.baking.layer_factors import layer_factors
+from gltf_iri.baking.layer_sky import sky_bands, sky_colours
 from gltf_iri.baking.layer_spectra import weighing_of
 from gltf_iri.colour.spaces import White
 from gltf_iri.errors import UsageError
@@ -81,44 +82,30 @@ def filled_layers(plan: LayersPlan, white: White, *, has_sky: bool = True) -> Ba
         raise UsageError("These layers are computed directly: their plan has no tables to fill.")
     weighing = weighing_of(plan, tables.bands, white, is_colour=tables.is_colour)
     cosines, texel = cosine_nodes(tables.cos_nodes), texel_nodes(plan, tables.period_nodes)
-    dtype = np.dtype(tables.texel)
-    kept: dict[str, list[Floats]] = {name: [] for name in ("reflected", "transmitted", "albedo")}
-    sky_cosines, sky_weights = sky_nodes(plan.host_ior)
-    through = np.ones((len(texel), len(sky_cosines), 1))  # (P, s, B), what passes all layers so far
-    irradiance = []
-    first: list[Floats] = []
-    for layer in plan.layers:
-        factors = layer_factors(plan, layer, texel, cosines, weighing)
-        sky = sky_factors(layer, factors, cosines, sky_cosines) if has_sky else _no_sky(factors)
-        if not first:
-            first = [_fours(each).astype(dtype) for each in (factors.colour, sky.colour)]
-        for name, values in zip(kept, (factors.reflected, factors.transmitted, sky.albedo), strict=True):
-            kept[name].append(_fours(values).astype(dtype))
-        above, through = through, through * sky.passed
-        of_above, passed = (np.einsum("s,psb->pb", sky_weights, each) for each in (above, through))
-        # Where nothing reaches the layer it may pass what it will.
-        share = np.divide(passed, of_above, out=np.zeros_like(passed), where=of_above > 0.0)
-        # As the cache keeps it.
-        irradiance.append(_fours(share).astype(np.float32).astype(np.float64))
+    shares = sky_bands(white).shares(weighing.rule)
+    if not has_sky:
+        shares = shares[:, :0]
+    factors = [layer_factors(plan, layer, texel, cosines, weighing, shares) for layer in plan.layers]
+
+    def kept(values: Float64) -> Floats:
+        return _fours(values).astype(tables.texel)
+
+    if has_sky:
+        sky = sky_colours(plan, factors, cosines, white)
+        sent, scattered, mirrored = (kept(each) for each in (sky.sent, sky.scattered, sky.mirrored))
+    else:
+        sent, scattered, mirrored = (np.zeros(shape) for shape in sky_shapes(plan, tables).values())
     return BakedLayers(
         plan=plan,
-        first=first[0],
-        reflected=np.stack(kept["reflected"]),
-        transmitted=np.stack(kept["transmitted"]),
-        first_albedo=first[1],
-        albedo=np.stack(kept["albedo"]),
-        irradiance=np.stack(irradiance),
+        first=kept(factors[0].colour),
+        reflected=kept(np.stack([each.reflected for each in factors])),
+        transmitted=kept(np.stack([each.transmitted for each in factors])),
+        sent=sent,
+        scattered=scattered,
+        mirrored=mirrored,
         weights=_fours(weighing.weights.T).T,
         white=str(white),
         filled_in_s=time.perf_counter() - start,
-    )
-
-
-def _no_sky(factors: LayerFactors) -> SkyFactors:
-    return SkyFactors(
-        np.zeros_like(factors.reflected),
-        np.zeros_like(factors.colour),
-        np.zeros((len(factors.reflected), 1, factors.reflected.shape[-1])),
     )
 
 

@@ -23,15 +23,17 @@ Floats = NDArray[np.floating[Any]]
 
 @dataclass(frozen=True, slots=True)
 class ImageColours:
-    """What a stack makes of image light; colours (..., 3) in linear Rec.709, white 1.
+    """What a stack makes of image light, which its host's surface lets in; colours (..., 3), white 1.
 
     layers : of each layer's own prefiltered radiance, outermost first.
-    diffuse : of the irradiance, above a diffuse base; metal : of the radiance of a metal base's lobe.
+    diffuse : of the irradiance, over a white Lambertian base as if it lay in the host. slope, offset : of the
+        radiance of a metal base's lobe, F0·slope + offset.
     """
 
     layers: tuple[Float64, ...]
     diffuse: Float64
-    metal: Float64
+    slope: Float64
+    offset: Float64
 
 
 class LayerLookup:
@@ -57,24 +59,30 @@ class LayerLookup:
         """Return (..., 3), the colour of Π_k T_k(i) T_k(o) over all layers."""
         return np.asarray(self._through(len(self._baked.plan.layers), cos_i, cos_o) @ self._baked.weights)
 
-    def image(self, n_dot_v: ArrayLike) -> ImageColours:
+    def image(self, n_dot_v: ArrayLike, metal_roughness: ArrayLike = 0.0) -> ImageColours:
         """Return what image light becomes, seen at the cosine `n_dot_v` in the host.
 
-        Each layer's light comes and goes through those above at N·V; over a diffuse base light comes from
-        all around.
+        metal_roughness : perceptual, of the metal below; not read where there is none.
         """
-        baked, count = self._baked, len(self._baked.plan.layers)
-        layers = [self._at(baked.first_albedo, n_dot_v)[..., :3]]
-        for layer in range(1, count):
-            through = self._through(layer, n_dot_v, n_dot_v)
-            layers.append((self._at(baked.albedo[layer], n_dot_v) * through) @ baked.weights)
-        sky = np.ones(1)
-        for layer in range(count):
-            # The irradiance has one axis, that of the texture.
-            passed = self._at(baked.irradiance[layer, :, None, :], 0.0)
-            sky = sky * self._at(baked.transmitted[layer], n_dot_v) * passed
-        metal = self._through(count, n_dot_v, n_dot_v)
-        return ImageColours(tuple(layers), np.asarray(sky @ baked.weights), np.asarray(metal @ baked.weights))
+        baked = self._baked
+        layers = tuple(self._at(each, n_dot_v)[..., :3] for each in baked.sent)
+        diffuse = self._at(baked.scattered, n_dot_v)[..., :3]
+        span, nodes = baked.plan.metal_roughness, len(baked.mirrored)
+        if span is None:
+            return ImageColours(layers, diffuse, np.zeros_like(diffuse), np.zeros_like(diffuse))
+        width = span.high - span.low
+        value = (np.asarray(metal_roughness, np.float64) - span.low) / (width if width > 0.0 else 1.0)
+        cell, on = _cell(value, nodes)
+        below = np.minimum(cell + 1, nodes - 1)
+        terms = []
+        for term in (0, 1):
+            seen = np.stack([self._at(each[term], n_dot_v)[..., :3] for each in baked.mirrored])
+            here, there = (
+                np.take_along_axis(seen, np.broadcast_to(place, seen.shape[1:-1])[None, ..., None], axis=0)[0]
+                for place in (cell, below)
+            )
+            terms.append(np.asarray((1.0 - on) * here + on * there))
+        return ImageColours(layers, diffuse, *terms)
 
     def _through(self, layers: int, cos_i: ArrayLike, cos_o: ArrayLike) -> Float64:
         """Return Π_{k<layers} T_k(i) T_k(o), (..., B')."""

@@ -43,7 +43,7 @@ def layer_rows(layers: LayersPlan, baked: BakedLayers | None = None) -> list[tup
         if baked is not None:
             filled = f", filled in {1e3 * baked.filled_in_s:.3g} ms"
             whence = ", from the cache" if baked.is_cached else filled
-        size = f"{tables.bytes(count) / 1024:.0f} KiB"
+        size = f"{tables.bytes(layers) / 1024:.0f} KiB"
         rows.append(
             ("tables", f"{held}, {tables.cos_nodes} cosines × {tables.period_nodes} periods, {size}{whence}")
         )

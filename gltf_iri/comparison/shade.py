@@ -106,4 +106,4 @@ def _seen(surface: Surface, plan: LayersPlan, layers: LayersMethod) -> _SeenLaye
     own = [colours.reflected(layer, cosine, cosine, cosine) for layer in range(len(plan.layers))]
     if plan.under == "base":
         own.append(colours.passed(cosine, cosine))
-    return _SeenLayers(np.stack(own, axis=1), colours.image(cosine))
+    return _SeenLayers(np.stack(own, axis=1), colours.image(cosine, surface.perceptual_roughness))

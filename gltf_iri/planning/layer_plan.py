@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 from gltf_iri.planning.film_table import Texel, texel_bytes
 from gltf_iri.planning.method import ParameterValue
@@ -15,6 +15,9 @@ __all__ = ["LayerTables", "LayersPlan", "PlannedLayer", "Under"]
 
 # What the light that passes all layers meets; "nothing" needs no transmission below the last layer.
 Under = Literal["nothing", "base"]
+
+# Over the roughnesses that a texture reads.
+_METAL_NODES: Final = 9
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,10 +59,13 @@ class LayerTables:
     texel: Texel
     delta_e: float
 
-    def bytes(self, layers: int) -> int:
-        """Memory of reflected, transmitted and albedo of so many layers, four bands to a texel."""
-        texels = layers * -(-self.bands // 4) * self.cos_nodes * self.period_nodes
-        return 3 * texels * texel_bytes(self.texel)
+    def bytes(self, plan: LayersPlan) -> int:
+        """Memory of the tables of `plan`, four bands or one colour to a texel."""
+        quads, layers, has_base = -(-self.bands // 4), len(plan.layers), plan.under == "base"
+        # The first's reflection; the others', and what each passes, where something lies below.
+        factors = 1 + quads * (layers - 1) + quads * (layers if has_base else layers - 1)
+        sky = layers + (1 if has_base else 0) + 2 * plan.metal_nodes
+        return (factors + sky) * self.cos_nodes * self.period_nodes * texel_bytes(self.texel)
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +75,7 @@ class LayersPlan:
     texel : the values that the period texture (channel G) takes, which every layer's period runs along; a
         point without one.
     method : of the domain "layers"; with tables, what fills them. parameters : its own.
+    metal_roughness : perceptual, of the metal that light below may meet; None where there is none.
     delta_e : measured p95 of CIEDE2000 over the material's reach; None without a budget.
     reason : why this method; simpler : what was left out and why, for people.
     """
@@ -80,6 +87,7 @@ class LayersPlan:
     method: str
     parameters: Mapping[str, ParameterValue] = field(default_factory=lambda: MappingProxyType({}))
     tables: LayerTables | None = None
+    metal_roughness: Span | None = None
     delta_e: float | None = None
     ns_per_colour: float = 0.0
     reason: str = ""
@@ -90,9 +98,15 @@ class LayersPlan:
         """True where a period comes out of a texture."""
         return not self.texel.is_point
 
+    @property
+    def metal_nodes(self) -> int:
+        """How many roughnesses of the metal tables for image light hold, linear between them."""
+        span = self.metal_roughness
+        return 0 if span is None else 1 if span.is_point else _METAL_NODES
+
     def to_json(self) -> dict[str, Any]:
         """Return how `plan --json` tells it."""
-        tables = self.tables
+        tables, metal = self.tables, self.metal_roughness
         return {
             "layers": [
                 {
@@ -109,6 +123,7 @@ class LayersPlan:
             "host_ior": self.host_ior,
             "under": self.under,
             "texel": [self.texel.low, self.texel.high],
+            "metal_roughness": None if metal is None else [metal.low, metal.high],
             "method": self.method,
             "parameters": dict(self.parameters),
             "tables": None
@@ -118,7 +133,7 @@ class LayersPlan:
                 "is_colour": tables.is_colour,
                 "nodes": [tables.cos_nodes, tables.period_nodes],
                 "texel": tables.texel,
-                "bytes": tables.bytes(len(self.layers)),
+                "bytes": tables.bytes(self),
                 "delta_e": tables.delta_e,
             },
             "delta_e": self.delta_e,

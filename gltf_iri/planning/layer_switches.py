@@ -19,10 +19,12 @@ _MANY: Final = "BRAGG_MANY"
 # Something lies below the layers that sends light back; their host is not air.
 _BASE: Final = "BRAGG_BASE"
 _COATING: Final = "BRAGG_COATING"
+# The roughness of the metal below varies.
+_METAL_ROUGHNESS: Final = "BRAGG_METAL_ROUGHNESS"
 # Nothing of the plain material is seen beside the layers.
 _WHOLE: Final = "BRAGG_WHOLE"
 
-LAYER_SWITCHES: Final = frozenset({_TABLES, _COLOURS, _MANY, _BASE, _COATING, _WHOLE})
+LAYER_SWITCHES: Final = frozenset({_TABLES, _COLOURS, _MANY, _BASE, _COATING, _METAL_ROUGHNESS, _WHOLE})
 
 _BANDS_A_TEXEL: Final = 4
 
@@ -48,6 +50,8 @@ def layer_defines(plan: MaterialPlan) -> Iterator[str]:
     if layers.tables is not None:
         yield _TABLES
         yield f"BRAGG_QUADS {quads(layers)}"
+        if layers.metal_nodes > 1:
+            yield _METAL_ROUGHNESS
         if layers.tables.is_colour:
             yield _COLOURS
     if len(layers.layers) > 1:

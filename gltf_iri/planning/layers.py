@@ -94,6 +94,7 @@ def plan_layers(
         texel=texel,
         method=chosen,
         parameters=_told(chosen, parameters),
+        metal_roughness=_metal_roughness(material),
         tables=tables or default_tables(chosen, texel, is_alone=under == "nothing" and len(layers) == 1),
         delta_e=delta_e,
         ns_per_colour=ns_per_colour,
@@ -131,6 +132,15 @@ def _kept(bragg: Bragg, texel: Span) -> tuple[list[PlannedLayer], list[str]]:
             )
         )
     return layers, simpler
+
+
+def _metal_roughness(material: Material) -> Span | None:
+    """Return what the metal's roughness may be; the texture's texels are not looked at."""
+    pbr = material.pbr
+    if pbr.metallic_factor == 0.0:
+        return None
+    least = pbr.roughness_factor if pbr.metallic_roughness_texture is None else 0.0
+    return Span(least, pbr.roughness_factor)
 
 
 def _period(layer: MirrorLayer, texel: float) -> float:

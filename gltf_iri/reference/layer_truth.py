@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.baking.layer_lookup import ImageColours
+from gltf_iri.baking.baked_layers import BakedLayers
+from gltf_iri.baking.layer_fill import filled_layers
+from gltf_iri.baking.layer_lookup import ImageColours, LayerLookup
 from gltf_iri.colour.spaces import White
-from gltf_iri.planning.layer_plan import LayersPlan
+from gltf_iri.planning.layer_plan import LayersPlan, LayerTables
 from gltf_iri.reference.spectrum_table import (
     SpectrumTable,
-    albedo,
     blocks,
     filtered,
     fine_bands,
-    irradiance,
     reflectance_tables,
 )
 
@@ -44,6 +44,10 @@ class _Fineness:
 _FIXED: Final = _Fineness(256, 16, 1, 4097, 1025)
 _VARYING: Final = _Fineness(128, 8, 65, 769, 193)
 
+# Nodes for image light, linear between them.
+_SKY_COSINES: Final = 513
+_SKY_PERIODS: Final = 33
+
 
 class TabulatedLayers:
     """Gives the colours of `plan`'s layers at points as `layers-single` does, nearly; see `LayersMethod`.
@@ -58,7 +62,7 @@ class TabulatedLayers:
     def __init__(self, plan: LayersPlan, white: White) -> None:
         fine = _VARYING if plan.varies else _FIXED
         self.count = len(plan.layers)
-        self._plan, self._fine = plan, fine
+        self._plan, self._white = plan, white
         self._bands = fine_bands(fine.bands, fine.samples, white)
         made = [
             reflectance_tables(plan, layer, self._bands, fine.periods, fine.cosines) for layer in plan.layers
@@ -85,25 +89,13 @@ class TabulatedLayers:
         """Return the first layer's reflectance as a colour (..., 3)."""
         return self._first.at(share.ravel(), cosine.ravel()).reshape(*share.shape, 3)
 
-    def first_albedo(self, share: Float64, n_dot_v: Float64) -> Float64:
-        """Return what the first layer sends of a white sky, as a colour (..., 3)."""
-        return self._sky.first.at(share.ravel(), n_dot_v.ravel()).reshape(*share.shape, 3)
-
     def reflecting(self, layer: int, cosine: Float64) -> list[_Factor]:
         """Return the factor of what a layer reflects."""
         return [(self._reflected[layer], cosine)]
 
-    def sending(self, layer: int, n_dot_v: Float64) -> list[_Factor]:
-        """Return the factor of what a layer sends of a white sky."""
-        return [(self._sky.albedos[layer], n_dot_v)]
-
     def passing(self, count: int | None, *cosines: Float64) -> list[_Factor]:
         """Return the factors of what passes the first `count` layers, or all, at each of `cosines`."""
         return [(table, cosine) for table in self._passed[:count] for cosine in cosines]
-
-    def sky_passing(self, cosine: Float64) -> list[_Factor]:
-        """Return the factor of what of a white sky passes all layers; `cosine` gives its shape alone."""
-        return [] if self._sky.irradiance is None else [(self._sky.irradiance, cosine)]
 
     def colour(self, share: Float64, factors: list[_Factor]) -> Float64:
         """Return the colour (..., 3) of a product of spectra, each at its cosines (...)."""
@@ -116,23 +108,17 @@ class TabulatedLayers:
             rgb[rows] = spectrum @ self._bands.weights
         return rgb.reshape(*share.shape, 3)
 
+    def image(self, share: Float64, n_dot_v: Float64, metal_roughness: Float64) -> ImageColours:
+        """Return what becomes of image light, whose tables hold colours of whole spectra."""
+        span = self._plan.texel
+        lookup = LayerLookup(self._sky, span.low + share * (span.high - span.low))
+        return lookup.image(n_dot_v, metal_roughness)
+
     @cached_property
-    def _sky(self) -> _Sky:
-        layers, cosines = self._plan.layers, self._fine.filtered_cosines
-        return _Sky(
-            albedo(self._first, layers[0].alpha, cosines),
-            [albedo(t, layer.alpha, cosines) for t, layer in zip(self._reflected, layers, strict=True)],
-            irradiance(self._passed, self._plan.host_ior) if self._plan.under == "base" else None,
-        )
-
-
-@dataclass(frozen=True, slots=True)
-class _Sky:
-    """Each layer's albedo, the first's as colours too, and what of a white sky passes all, to a base."""
-
-    first: SpectrumTable
-    albedos: list[SpectrumTable]
-    irradiance: SpectrumTable | None
+    def _sky(self) -> BakedLayers:
+        periods = _SKY_PERIODS if self._plan.varies else 1
+        tables = LayerTables(3, True, _SKY_COSINES, periods, "f4", 0.0)
+        return filled_layers(replace(self._plan, tables=tables), self._white)
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,16 +140,6 @@ class _AtPoints:
         share, i, o = np.broadcast_arrays(self.share, cos_i, cos_o)
         return self.of.colour(share, self.of.passing(None, i, o))
 
-    def image(self, n_dot_v: Float64) -> ImageColours:
+    def image(self, n_dot_v: Float64, metal_roughness: Float64) -> ImageColours:
         """Return what image light becomes, as `LayerLookup.image` does of its tables."""
-        of = self.of
-        share, seen = np.broadcast_arrays(self.share, n_dot_v)
-        behind = [
-            of.colour(share, of.sending(layer, seen) + of.passing(layer, seen, seen))
-            for layer in range(1, of.count)
-        ]
-        return ImageColours(
-            (of.first_albedo(share, seen), *behind),
-            diffuse=of.colour(share, of.passing(None, seen) + of.sky_passing(seen)),
-            metal=of.colour(share, of.passing(None, seen, seen)),
-        )
+        return self.of.image(*np.broadcast_arrays(self.share, n_dot_v, metal_roughness))

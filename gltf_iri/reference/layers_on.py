@@ -30,8 +30,8 @@ Float64 = NDArray[np.float64]
 class ColoursAtPoints(LayerColours, Protocol):
     """The colours of one material's layers at n points, under image light too."""
 
-    def image(self, n_dot_v: Float64) -> ImageColours:
-        """Return what image light becomes, seen at the cosine `n_dot_v` in the host."""
+    def image(self, n_dot_v: Float64, metal_roughness: Float64) -> ImageColours:
+        """Return what image light becomes, seen at the cosine `n_dot_v` in the host; roughness perceptual."""
         ...
 
 

@@ -7,7 +7,6 @@ of the period texture's value where periods vary, tables are cubic.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -15,18 +14,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.backends import choose_backend
-from gltf_iri.baking.layer_factors import sky_nodes
 from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM
 from gltf_iri.colour.quadrature import colour_density
 from gltf_iri.colour.spaces import White
 from gltf_iri.optics.bragg import bragg_reflectance
-from gltf_iri.optics.layer_lobe import layer_lobe
-from gltf_iri.optics.microfacet import N_DOT_V_MIN
 from gltf_iri.optics.rough_bragg import filter_nodes
 from gltf_iri.planning.layer_plan import LayersPlan, PlannedLayer
 
-__all__ = ["FineBands", "SpectrumTable", "albedo", "blocks", "filtered", "fine_bands", "irradiance"]
-__all__ += ["reflectance_tables"]
+__all__ = ["FineBands", "SpectrumTable", "blocks", "filtered", "fine_bands", "reflectance_tables"]
 
 Float64 = NDArray[np.float64]
 Float32 = NDArray[np.float32]
@@ -124,21 +119,6 @@ def filtered(reflected: SpectrumTable, alpha: float, cosines: int) -> SpectrumTa
     """Return T = ∫ (1 − R) F_α dθ_d (periods, cosines, B), Fourneau et al. 2024, Eq. 28, of facets' R."""
     met, weights = filter_nodes(np.linspace(0.0, 1.0, cosines), alpha, count=_FILTER_POINTS)
     return _averaged(SpectrumTable(1.0 - reflected.values), met, weights)
-
-
-def albedo(reflected: SpectrumTable, alpha: float, cosines: int) -> SpectrumTable:
-    """Return ∫ R w cosθ_i dω_i over the lobe of each viewer, (periods, cosines, B), of facets' R."""
-    # Along the surface nothing is seen; 0 would divide by it.
-    seen_at = np.maximum(np.linspace(0.0, 1.0, cosines), N_DOT_V_MIN)
-    return _averaged(reflected, *layer_lobe(seen_at, alpha))
-
-
-def irradiance(passed: Sequence[SpectrumTable], host_ior: float) -> SpectrumTable:
-    """Return what of a white sky passes all layers (periods, 1, B), as the coating lets it in."""
-    cosines, weights = sky_nodes(host_ior)
-    alone = np.ones((len(cosines), 1))
-    through = np.prod([_averaged(table, cosines[:, None], alone).values for table in passed], axis=0)
-    return SpectrumTable(np.einsum("s,psb->pb", weights, through)[:, None])
 
 
 def _averaged(table: SpectrumTable, met: Float64, weights: Float64) -> SpectrumTable:

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from gltf_iri.baking.baked_layers import BakedLayers
 from gltf_iri.errors import MissingCapabilityError, UsageError
-from gltf_iri.optics.layer_stack import coating_transmittance
-from gltf_iri.optics.quadrature import gauss_unit
+from gltf_iri.optics.host_entrance import entering_irradiance
 from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.planning.layers import default_tables
 from gltf_iri.planning.material_plan import MaterialPlan
@@ -104,8 +103,8 @@ class LayerTableStore:
 def layer_table_slices(baked: BakedLayers) -> Floats:
     """Return the slices (S, P, C, 4), four bands each, in the order that shaders count them.
 
-    The first layer's reflection and albedo as colours; reflectance and albedo of each other layer; then what
-    each lets pass, of the last only where something lies below, and there what of a white sky passes each.
+    The first layer's reflection as a colour, reflectance of each other layer, what each lets pass, of the
+    last only where something lies below; then for a white sky what each layer sends, and what lies below.
     """
     has_base = baked.plan.under == "base"
     layers, periods, cosines, bands = baked.reflected.shape
@@ -116,16 +115,11 @@ def layer_table_slices(baked: BakedLayers) -> Floats:
         parts = values.reshape(len(values), periods, cosines, quads, 4)
         return np.moveaxis(parts, 3, 1).reshape(-1, periods, cosines, 4)
 
-    slices = [
-        baked.first[None],
-        baked.first_albedo[None],
-        split(baked.reflected[1:]),
-        split(baked.albedo[1:]),
-    ]
+    slices = [baked.first[None], split(baked.reflected[1:])]
     slices.append(split(baked.transmitted[: layers if has_base else layers - 1]))
+    slices.append(baked.sent)
     if has_base:
-        everywhere = np.broadcast_to(baked.irradiance[:, :, None, :], baked.transmitted.shape)
-        slices.append(split(np.asarray(everywhere)))
+        slices += [baked.scattered[None], baked.mirrored.reshape(-1, periods, cosines, 4)]
     return np.concatenate(slices)
 
 
@@ -134,8 +128,6 @@ def layer_uniforms(layers: LayersPlan) -> dict[str, Any]:
     span = layers.texel
     length = span.high - span.low
     exit_ior = layers.layers[-1].n1
-    nodes, weights = gauss_unit(64)
-    entering = 2.0 * float(np.sum(weights * nodes * coating_transmittance(layers.host_ior, nodes)))
     films = [(layer.n1, layer.n2, layer.fill, float(layer.cells)) for layer in layers.layers]
     periods = [
         (low, (high - low) / length if length > 0.0 else 0.0)
@@ -144,7 +136,7 @@ def layer_uniforms(layers: LayersPlan) -> dict[str, Any]:
     return {
         "u_bragg_alpha": _array([layer.alpha for layer in layers.layers]),
         "u_bragg_bent": (layers.host_ior / exit_ior) ** 2,
-        "u_bragg_coating_irradiance": entering,
+        "u_bragg_coating_irradiance": entering_irradiance(layers.host_ior),
         "u_bragg_films": _array(films),
         "u_bragg_periods_nm": _array(periods),
         "u_bragg_texel_low": span.low,
@@ -152,13 +144,19 @@ def layer_uniforms(layers: LayersPlan) -> dict[str, Any]:
 
 
 def _table_uniforms(baked: BakedLayers) -> dict[str, Any]:
-    """Return each axis as (first value, scale, first node's place), and the bands' weights."""
+    """Return each axis as (first value, scale, first node's place), and the bands' weights.
+
+    Of roughnesses, which are slices, (first value, scale, last slice).
+    """
     _, periods, cosines, _ = baked.reflected.shape
     texel = baked.plan.texel
     length = texel.high - texel.low
     # Of one node there is no way to go: any value is at it.
     scale = (periods - 1) / periods / length if length > 0.0 else 0.0
+    metal, last = baked.plan.metal_roughness or Span.at(0.0), len(baked.mirrored) - 1.0
+    breadth = metal.high - metal.low
     return {
+        "u_bragg_metal_roughness": (metal.low, last / breadth if breadth > 0.0 else 0.0, last),
         "u_bragg_cosine": (0.0, (cosines - 1) / cosines, 0.5 / cosines),
         "u_bragg_texel": (texel.low, scale, 0.5 / periods),
         "u_bragg_weights": [tuple(row) for row in baked.weights.tolist()],

@@ -1,15 +1,10 @@
 // Light of the environment on Bragg layers: the split sum, a lobe for each layer. Each layer sends prefiltered radiance
-// of its own roughness, times what it sends of a white sky and those above let by towards the viewer and back.
+// of its own roughness, times what it sends of a white sky.
 
 #include "lighting/environment.glsl"
 #include "lighting/layer_colours.glsl"
 #include "lighting/layer_light.glsl"
 #include "optics/layer_stack.glsl"
-#ifdef BRAGG_COATING
-uniform float u_bragg_coating_irradiance;  // what of a white sky enters the host
-#endif
-
-float cosine_at_layers(View w) { return cosine_in_host(u_bragg_host_ior, w.n_dot_v); }
 
 // Seen through the coating facets seem to lean more: their slopes are n cosθ'/cosθ times as steep, with θ' inside.
 float seen_roughness(float alpha, View w) {
@@ -43,25 +38,20 @@ LayerLight light_of_layers(Surface s, View w, vec3 mirrored, vec3 base_radiance,
 }
 
 vec3 image_on_layers(Surface s, View w, ImageLight image) {
-    float cos_o = cosine_at_layers(w);
     vec3 sent = vec3(0.0);
     for (int i = 0; i < BRAGG_LAYERS; ++i) {
-        sent += layer_albedo(s, i, cos_o) * image.layers.radiance[i];
+        sent += layer_albedo(s, w, i) * image.layers.radiance[i];
     }
 #if defined(BRAGG_BASE) && defined(HAS_METAL)
-    vec2 dfg = dfg_terms(u_dfg, cos_o, s.perceptual_roughness);
-    sent += s.metallic * layers_passed(s, cos_o, cos_o) * (s.base_color * dfg.x + dfg.y) * image.layers.metal_radiance;
+    sent += s.metallic * metal_albedo(s, w) * image.layers.metal_radiance;
 #endif
-    vec3 scattered = vec3(0.0);
 #if defined(BRAGG_BASE) && defined(HAS_DIELECTRIC)
-    scattered = (1.0 - s.metallic) * s.base_color * u_bragg_bent * layers_passed_irradiance(s, cos_o) * image.irradiance;
+    sent += (1.0 - s.metallic) * s.base_color * u_bragg_bent * scattered_albedo(s, w) * image.irradiance;
 #endif
 #ifdef BRAGG_COATING
-    // What is mirrored leaves as it came, so that bending takes nothing from it; what is scattered fills the host.
     float passed = coating_transmittance(u_bragg_host_ior, w.n_dot_v);
-    return passed * (passed * sent + u_bragg_coating_irradiance / sq(u_bragg_host_ior) * scattered) +
-           (1.0 - passed) * image.layers.coating_radiance;
+    return passed * sent + (1.0 - passed) * image.layers.coating_radiance;
 #else
-    return sent + scattered;
+    return sent;
 #endif
 }

@@ -4,6 +4,7 @@
 // Across lies the cosine in the host, down the period texture's value; OpenGL clamps to the first and last node and mixes
 // linearly between nodes. Slices are never mixed. A spectrum is four bands a texel, BRAGG_QUADS texels.
 
+#include "lighting/view.glsl"
 #include "material/surface.glsl"
 
 uniform highp sampler2DArray u_bragg_tables;
@@ -13,14 +14,21 @@ uniform vec3 u_bragg_texel;
 uniform vec3 u_bragg_weights[4 * BRAGG_QUADS];  // of each band, linear Rec.709
 #endif
 
-// Slices, as `layer_table_slices` of gltf_iri/rendering/layer_tables.py counts them. The first layer's reflection is a colour.
+#ifdef BRAGG_METAL_ROUGHNESS
+uniform vec3 u_bragg_metal_roughness;  // first value, scale, last node
+#endif
+
+// Slices, as `layer_table_slices` of gltf_iri/rendering/layer_tables.py counts them. The first layer's reflection is a
+// colour, and so is all that becomes of a white sky.
 const int FIRST_SLICE = 0;
-const int FIRST_ALBEDO_SLICE = 1;
-const int REFLECTED_SLICE = 2;
-const int ALBEDO_SLICE = REFLECTED_SLICE + (BRAGG_LAYERS - 1) * BRAGG_QUADS;
-const int TRANSMITTED_SLICE = ALBEDO_SLICE + (BRAGG_LAYERS - 1) * BRAGG_QUADS;
+const int REFLECTED_SLICE = 1;
+const int TRANSMITTED_SLICE = REFLECTED_SLICE + (BRAGG_LAYERS - 1) * BRAGG_QUADS;
 #ifdef BRAGG_BASE
-const int IRRADIANCE_SLICE = TRANSMITTED_SLICE + BRAGG_LAYERS * BRAGG_QUADS;
+const int SENT_SLICE = TRANSMITTED_SLICE + BRAGG_LAYERS * BRAGG_QUADS;
+const int SCATTERED_SLICE = SENT_SLICE + BRAGG_LAYERS;
+const int MIRRORED_SLICE = SCATTERED_SLICE + 1;
+#else
+const int SENT_SLICE = TRANSMITTED_SLICE + (BRAGG_LAYERS - 1) * BRAGG_QUADS;
 #endif
 
 vec2 table_place(Surface s, float cos_theta) {
@@ -54,24 +62,18 @@ vec4 passed_bands(vec2 place_i, vec2 place_o, int count, int quad) {
 }
 #endif
 
-#ifdef BRAGG_MANY
-// The colour of a factor of `layer` behind those above it; its spectrum begins at `first_slice` + (layer − 1)·quads.
-vec3 behind_layers(vec2 place, vec2 place_i, vec2 place_o, int layer, int first_slice) {
-    vec3 colour = vec3(0.0);
-    for (int quad = 0; quad < BRAGG_QUADS; ++quad) {
-        vec4 bands = table_texel(place, first_slice + (layer - 1) * BRAGG_QUADS + quad);
-        colour += colour_of(bands * passed_bands(place_i, place_o, layer, quad), quad);
-    }
-    return colour;
-}
-#endif
-
 // R_layer(h) Π T_k(i) T_k(o) over the layers above it.
 vec3 layer_reflected(Surface s, int layer, float cos_h, float cos_i, float cos_o) {
     vec2 place = table_place(s, cos_h);
 #ifdef BRAGG_MANY
     if (layer > 0) {
-        return behind_layers(place, table_place(s, cos_i), table_place(s, cos_o), layer, REFLECTED_SLICE);
+        vec2 place_i = table_place(s, cos_i), place_o = table_place(s, cos_o);
+        vec3 colour = vec3(0.0);
+        for (int quad = 0; quad < BRAGG_QUADS; ++quad) {
+            vec4 bands = table_texel(place, REFLECTED_SLICE + (layer - 1) * BRAGG_QUADS + quad);
+            colour += colour_of(bands * passed_bands(place_i, place_o, layer, quad), quad);
+        }
+        return colour;
     }
 #endif
     return table_texel(place, FIRST_SLICE).rgb;
@@ -90,31 +92,33 @@ vec3 layers_passed(Surface s, float cos_i, float cos_o) {
 #endif
 
 #ifdef HAS_IMAGE_LIGHT
-// What `layer` sends of a white sky to a viewer at `cos_o`.
-vec3 layer_albedo(Surface s, int layer, float cos_o) {
-    vec2 place = table_place(s, cos_o);
-#ifdef BRAGG_MANY
-    if (layer > 0) {
-        return behind_layers(place, place, place, layer, ALBEDO_SLICE);
-    }
-#endif
-    return table_texel(place, FIRST_ALBEDO_SLICE).rgb;
+// What `layer` sends of a white sky.
+vec3 layer_albedo(Surface s, View w, int layer) {
+    return table_texel(table_place(s, cosine_at_layers(w)), SENT_SLICE + layer).rgb;
 }
 
 #ifdef BRAGG_BASE
-// What of a white sky passes all layers, and them again towards a viewer at `cos_o`: each layer's mean by itself.
-vec3 layers_passed_irradiance(Surface s, float cos_o) {
-    vec2 place = table_place(s, cos_o);
-    vec3 colour = vec3(0.0);
-    for (int quad = 0; quad < BRAGG_QUADS; ++quad) {
-        vec4 bands = vec4(1.0);
-        for (int k = 0; k < BRAGG_LAYERS; ++k) {
-            int slice = k * BRAGG_QUADS + quad;
-            bands *= table_texel(place, TRANSMITTED_SLICE + slice) * table_texel(place, IRRADIANCE_SLICE + slice);
-        }
-        colour += colour_of(bands, quad);
-    }
-    return colour;
+// What a white Lambertian base, as if it lay in the host, sends of a white sky.
+vec3 scattered_albedo(Surface s, View w) {
+    return table_texel(table_place(s, cosine_at_layers(w)), SCATTERED_SLICE).rgb;
 }
+
+#ifdef HAS_METAL
+// What a metal of reflectance F0 = base colour sends of a white sky.
+vec3 metal_albedo(Surface s, View w) {
+    vec2 place = table_place(s, cosine_at_layers(w));
+#ifdef BRAGG_METAL_ROUGHNESS
+    vec3 axis = u_bragg_metal_roughness;
+    float node = clamp((s.perceptual_roughness - axis.x) * axis.y, 0.0, axis.z);
+    float first = min(floor(node), axis.z - 1.0), on = node - first;
+    int here = MIRRORED_SLICE + 2 * int(first);
+    vec3 slope = mix(table_texel(place, here).rgb, table_texel(place, here + 2).rgb, on);
+    vec3 offset = mix(table_texel(place, here + 1).rgb, table_texel(place, here + 3).rgb, on);
+#else
+    vec3 slope = table_texel(place, MIRRORED_SLICE).rgb, offset = table_texel(place, MIRRORED_SLICE + 1).rgb;
+#endif
+    return s.base_color * slope + offset;
+}
+#endif
 #endif
 #endif

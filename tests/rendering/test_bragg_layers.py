@@ -16,7 +16,6 @@ from gltf_iri.evaluation.layer_methods import layer_colours
 from gltf_iri.evaluation.layers import BraggLayer, LayerBase, LayerStack, Pose, brdf, coating_reflectance
 from gltf_iri.optics.layer_stack import coating_transmittance, cosine_in_host
 from gltf_iri.optics.microfacet import ALPHA_MIN, alpha_ggx, d_ggx, v_smith_ggx_correlated
-from gltf_iri.optics.quadrature import gauss_unit
 from gltf_iri.planning.decide import plan_materials
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.layer_switches import is_whole
@@ -137,19 +136,17 @@ class Shown:
     def under_sky(self, colours):
         """Return what the layers send of image light (n, 3), of what each of their lobes receives."""
         i, host = self.inputs, self.stack.host_ior
-        image = colours.image(cosine_in_host(host, self.n_dot_v))
+        image = colours.image(cosine_in_host(host, self.n_dot_v), i.perceptual_roughness)
         radiance = (i.bragg_radiance_0, i.bragg_radiance_1, i.bragg_radiance_2, i.bragg_radiance_3)
         sent = sum(colour * part for colour, part in zip(image.layers, radiance, strict=False))
-        metal = i.base_color * i.dfg_a[:, None] + i.dfg_b[:, None]
-        sent = sent + i.metallic[:, None] * image.metal * metal * i.bragg_metal_radiance
+        metal = i.base_color * image.slope + image.offset
+        sent = sent + i.metallic[:, None] * metal * i.bragg_metal_radiance
         bent = (host / self.stack.exit_ior) ** 2
         scattered = self.stack.base.diffuse * bent * image.diffuse * i.irradiance
-        nodes, weights = gauss_unit(64)
-        entering = 2.0 * np.sum(weights * nodes * coating_transmittance(host, nodes)) / host**2
-        passed = coating_transmittance(host, self.n_dot_v)[:, None]
         if host == 1.0:
             return sent + scattered
-        return passed * (passed * sent + entering * scattered) + (1.0 - passed) * i.bragg_coating_radiance
+        passed = coating_transmittance(host, self.n_dot_v)[:, None]
+        return passed * (sent + scattered) + (1.0 - passed) * i.bragg_coating_radiance
 
     def mixed(self, layered):
         return self.plain + self.inputs.bragg_factor[:, None] * (layered - self.plain)

@@ -72,15 +72,19 @@ def test_only_the_third_inputs_name_layers_where_there_are_none():
 def test_one_layer_over_nothing_needs_no_transmission():
     found = words(layered(LAYER, pbr=BLACK))
     assert {"layer_reflected", "layer_albedo"} <= found
-    assert not [w for w in found if "passed" in w or w in ("behind_layers", "IRRADIANCE_SLICE")]
+    assert not [w for w in found if "passed" in w or w in ("SCATTERED_SLICE", "MIRRORED_SLICE")]
 
 
 def test_each_part_comes_with_what_asks_for_it():
     one, two = words(layered(LAYER)), words(layered(LAYER, LAYER))
-    assert "behind_layers" in two - one
-    assert {"layers_passed", "passed_bands"} <= one
+    assert "passed_bands" in words(layered(LAYER, LAYER, pbr=BLACK)) - words(layered(LAYER, pbr=BLACK))
+    assert {"layers_passed", "passed_bands", "scattered_albedo"} <= one & two
     coated = words(layered(replace(LAYER, ior_1=1.4), host=1.4))
-    assert {"mirrored_by_coating", "u_bragg_coating_irradiance"} <= coated - one
+    assert "mirrored_by_coating" in coated - one
+    metal = words(layered(LAYER, pbr=MetallicRoughness()))
+    assert "metal_albedo" in metal - one and "u_bragg_metal_roughness" not in metal
+    varying = MetallicRoughness(metallic_roughness_texture=T)
+    assert "u_bragg_metal_roughness" in words(layered(LAYER, pbr=varying))
     assert "sample_bragg_period" not in one and "sample_bragg" not in one
     assert {"facet_weight", "u_dfg"} <= one
     assert "mirrored_radiance" not in words(layered(LAYER), lights=(Effect.PUNCTUAL_LIGHTS,))
