@@ -51,6 +51,15 @@ def test_a_smooth_layer_in_its_host_keeps_nothing() -> None:
     np.testing.assert_allclose(shares.absorbed, 0.0, atol=1e-12)
 
 
+@pytest.mark.parametrize("alpha", [1e-12, 1e-9, 1e-5, 2e-4])
+def test_what_hardly_rough_facets_send_is_what_smooth_ones_do(alpha: float) -> None:
+    def sent(alpha: float) -> np.ndarray:
+        stack = LayerStack.of((BraggLayer.of(1.0, 1.5, 120.0, 100.0, 4, alpha),), 1.0)
+        return stack_energy(stack, [0.3, 1.0], layer_colours("layers-single", stack)).reflected
+
+    np.testing.assert_allclose(sent(alpha), sent(0.0), atol=5e-4)
+
+
 def test_nothing_under_a_coating_is_the_coating_alone() -> None:
     stack = LayerStack.of((), 1.5)
     energy = stack_energy(stack, [1.0, 0.3], layer_colours("layers-single", stack))
