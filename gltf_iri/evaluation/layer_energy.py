@@ -48,8 +48,8 @@ _VALUES_AT_ONCE: Final = 1 << 21  # bounds memory: points × wavelengths
 
 _COSINES: Final = 32  # of what a Lambertian base sends
 
-# Facets of a stack this little rough are summed as smooth: below it cosines no longer hold the angles of their
-# lobe, and at 1e-9 its sum is 86 times too large. But within α of the horizon both are the same to 1e-4.
+# Facets less rough than this are summed as smooth: beneath, cosines no longer hold the angles of their lobe,
+# and at 1e-9 its sum is 95 times too large. But within α of the horizon both are the same to 1e-4.
 _SMOOTH_ALPHA: Final = 1e-4
 
 
