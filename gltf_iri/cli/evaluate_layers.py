@@ -60,6 +60,8 @@ def from_layers(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> 
         raise click.UsageError("--base-alpha is the roughness of --base-metal; give both")
     layers = tuple(BraggLayer.of(*values) for values in given["layer"])
     metal = given["base_metal"]
+    if metal is not None:
+        _refuse_more_than_all(given["base_diffuse"], metal)
     base = LayerBase.of(
         _or(given["base_diffuse"], 0.0),
         _or(metal, 0.0),
@@ -97,6 +99,15 @@ def from_layers(cosines: tuple[float, ...], how: How, given: dict[str, Any]) -> 
     }
 
 
+def _refuse_more_than_all(diffuse: tuple[float, ...] | None, metal: tuple[float, ...]) -> None:
+    """Raise where diffuse base and metal, which lie side by side, send back more than they receive."""
+    shares = (0.0,) if diffuse is None else diffuse
+    if max(d + f0 for d, f0 in zip(shares * (3 // len(shares)), metal, strict=True)) > 1.0:
+        raise click.UsageError(
+            "--base-diffuse and --base-metal lie side by side: no channel may add up to more than 1"
+        )
+
+
 def refuse_layer_options(given: dict[str, Any]) -> None:
     """Raise where an option of a stack stands without a --layer."""
     for name in _ONLY_OF_LAYERS:
@@ -122,6 +133,7 @@ def print_layers(result: dict[str, Any]) -> None:
     title = f"{method}{kept}, by {result['backend']}, {result['white']} white, linear Rec.709"
     print_table(columns, rows, title=title)
     note("Light that is reflected more than once is not sent back; it counts as absorbed.")
+    note("What is transmitted comes from the truth, whatever the method, and reaches the base.")
 
 
 def _or(value: Any, default: float) -> Any:

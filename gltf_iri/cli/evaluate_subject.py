@@ -176,6 +176,10 @@ def chosen_material(materials: tuple[Material, ...], name: str | None, file: Pat
             fits = [int(name)]
     if len(fits) == 1:
         return fits[0]
+    if name is None and not fits and any(material.bragg is not None for material in materials):
+        raise UsageError(
+            f"{file} has layers and no film; give layers by --layer, or draw them with `render`."
+        )
     wanted = "with a film" if name is None else f"called '{name}'"
     has = f"{len(fits)} materials {wanted}" if fits else f"no material {wanted}"
     if not candidates:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -49,6 +50,7 @@ def test_people_get_a_row_for_each_angle(capsys: pytest.CaptureFixture[str]) -> 
         (["--base-diffuse", "0.5"], "give --layer too"),
         ([*UPPER, "--film-ior", "1.3"], "no --film-ior"),
         ([*UPPER, "--base-alpha", "0.2"], "give both"),
+        ([*UPPER, "--base-diffuse", "0.5", "--base-metal", "0.2,0.6,0.2"], "more than 1"),
         ([*UPPER, "--budget", "-1"], "A budget is"),
         ([*UPPER, "--method", "khr"], "no method 'khr' for layers"),
         ([*UPPER, "--cos", "1.5"], "must lie in [0, 1]"),
@@ -70,3 +72,13 @@ def test_a_budget_chooses_the_method_and_tells_what_it_errs(capsys: pytest.Captu
     assert told["delta_e"] <= 1.0 and told["ns_per_colour"] > 0.0
     assert run(["evaluate", *UPPER, "--cos", "1", "--budget", "0"]) == 0
     assert "layers-single, ΔE ≤ 0" in capsys.readouterr().out
+
+
+def test_a_file_whose_material_has_layers_is_told_what_else_to_ask(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    layers = {"EXT_materials_bragg": {"braggFactor": 1, "layers": [{"cells": 3}]}}
+    asset = {"asset": {"version": "2.0"}, "materials": [{"extensions": layers}]}
+    (tmp_path / "beetle.gltf").write_text(json.dumps(asset))
+    assert run(["evaluate", str(tmp_path / "beetle.gltf")]) == 2
+    assert "give layers by --layer" in capsys.readouterr().err
