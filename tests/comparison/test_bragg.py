@@ -24,6 +24,7 @@ from gltf_iri.errors import UsageError
 from gltf_iri.planning.decide import plan_materials
 from gltf_iri.reference.render import render_reference
 from gltf_iri.resources import spec_root
+from gltf_iri.scene.environment import white
 from gltf_iri.scene.framing import frame_scene
 from gltf_iri.scene.load import load
 from gltf_iri.tolerances import GLSL_PIXEL_RELATIVE
@@ -74,6 +75,27 @@ def test_glsl_within_a_budget_is_the_spectral_reference(gl_context, renderer, st
     record_property("measured", f"{name}: ΔE p95 {error.delta_e_p95:.2g}, {chosen.method}, {chosen.tables}")
     assert error.pixels > 400
     assert error.delta_e_p95 <= BUDGET
+
+
+@pytest.mark.parametrize("name", ["two over metal", "coated"])
+def test_in_a_white_room_image_light_is_the_spectral_reference(
+    gl_context, renderer, staged, name, record_property
+):
+    """There the split sum is exact: what each lobe sends is its own integral."""
+    model, scene, camera = staged(name)
+    plans = plan_materials(model.materials, document=model.document, scene=scene)
+    tables, room = bake_layer_plans(plans), white()
+    options = {"float_textures": True, "sharp_textures": True, "with_inputs": True, "layer_tables": tables}
+    dark = replace(scene, lights=())
+    frame = renderer.render(model, dark, plans, camera, room, size=(12, 12), **options)
+    truth = render_reference(
+        model, dark, plans, camera, room, size=(12, 12), lighting="image", image_samples=4096, processes=1
+    )
+    same = same_surface(frame.inputs, truth, camera)
+    error = colour_error(frame.inputs.colour[same].astype(np.float64), truth.rgba[same][:, :3])
+    record_property("measured", f"{name} in a white room: ΔE p95 {error.delta_e_p95:.2g}")
+    assert error.pixels > 60
+    assert error.delta_e_p95 <= 0.3
 
 
 @pytest.fixture
