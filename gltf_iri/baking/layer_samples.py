@@ -75,7 +75,13 @@ def p95_guess(found: Terms, truth: Terms) -> float:
 
 def doubt_of(plan: LayersPlan, samples: LayerSamples, white: White) -> float:
     """Return the most, in CIEDE2000, that `samples.truth` is off `layers-single` itself at a few of them."""
-    some = np.linspace(0, len(samples.texel) - 1, _DOUBTED).astype(np.intp)
+    last = len(samples.texel) - 1
+    if plan.varies:
+        # Of the first period drawn and the last: the truth integrates the filter anew for every other one.
+        ends = (np.flatnonzero(samples.texel == samples.texel[end]) for end in (0, last))
+        some = np.concatenate([end[:: max(1, 2 * len(end) // _DOUBTED)][: _DOUBTED // 2] for end in ends])
+    else:
+        some = np.linspace(0, last, _DOUBTED).astype(np.intp)
     texel = samples.texel[some] if plan.varies else plan.texel.high
     exact = layer_colours(truth_of("layers"), planned_stack(plan, texel), white=white)
     cosines = [c[some] for c in (samples.cos_h, samples.cos_i, samples.cos_o)]

@@ -39,7 +39,9 @@ class Sight:
 def cosine_in_host(host_ior: ArrayLike, cos_theta: ArrayLike) -> Float64:
     """cosθ' = √(1 − (1 − c²)/n_h²), Snell's law from air; `cos_theta` itself where the host is air."""
     n, c = np.asarray(host_ior, np.float64), np.asarray(cos_theta, np.float64)
-    return np.asarray(np.where(n == 1.0, c, np.sqrt(normal_index_squared_real(n, 1.0, c)) / n))
+    inside = np.sqrt(normal_index_squared_real(n, 1.0, c)) / n
+    # One rounding above 1 has no sine.
+    return np.asarray(np.where(n == 1.0, c, np.minimum(inside, 1.0)))
 
 
 def coating_transmittance(host_ior: ArrayLike, cos_theta: ArrayLike) -> Float64:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from gltf_iri.baking.cache import TableCache
+from gltf_iri.baking.layer_cache import read_layers
 from gltf_iri.baking.layer_fill import bake_layers, cosine_nodes, filled_layers, texel_nodes
 from gltf_iri.baking.layer_lookup import LayerLookup
 from gltf_iri.colour.bands import bands_of
@@ -113,8 +114,30 @@ def test_the_cache_gives_back_what_was_filled(tmp_path: Path, texel: str) -> Non
                 field.name == "filled_in_s"
             ), field.name
     assert not bake_layers(plan, "E", cache=cache).is_cached
-    other = replace(plan, layers=(UPPER, replace(LOWER, alpha=0.3)))
-    assert not bake_layers(other, cache=cache).is_cached
+    upper, lower = plan.layers
+    changes = {"n2": 1.71, "period_nm": (250.0, 250.0), "fill": 0.6, "cells": 4, "alpha": 0.3}
+    for name, value in changes.items():
+        other = replace(plan, layers=(upper, replace(lower, **{name: value})))  # type: ignore[arg-type]
+        assert read_layers(cache, other, "D65") is None, name
+    assert read_layers(cache, replace(plan, layers=(lower, upper)), "D65") is None
+    assert read_layers(cache, plan, "D65") is not None
+
+
+@pytest.mark.parametrize("host", [1.437, 1.49])
+def test_tables_are_numbers_up_to_the_normal(host: float) -> None:
+    """These hosts bend light along the normal to a cosine of 1 and a rounding, which has no sine."""
+    plan = still(TWO, bands=3, is_colour=True)
+    layers = tuple(replace(layer, n1=host) for layer in plan.layers)
+    baked = filled_layers(replace(plan, layers=layers, host_ior=host), "D65")
+    for field in (
+        baked.first,
+        baked.reflected,
+        baked.transmitted,
+        baked.sent,
+        baked.scattered,
+        baked.mirrored,
+    ):
+        assert np.isfinite(field).all()
 
 
 def test_a_damaged_file_is_filled_anew(tmp_path: Path) -> None:

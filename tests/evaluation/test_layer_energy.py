@@ -29,12 +29,12 @@ def test_the_transmissions_loss_is_not_the_layers_absorption(
 
 
 def test_what_a_stack_sends_is_its_brdf_over_the_hemisphere() -> None:
-    """In air and under a coating, by a plain sum over directions."""
+    """In air, under a coating, and beyond a layer that bends light, by a plain sum over directions."""
     t, weights = np.polynomial.legendre.leggauss(40)
     cos_o, phi = 0.5 * (t + 1.0), 0.5 * np.pi * (t + 1.0)
-    for host in (1.0, 1.35):
-        layer = BraggLayer.of(host, 1.7, 100.0, 130.0, 2, 0.5)
-        stack = LayerStack.of((layer,), host, LayerBase.of([0.7, 0.5, 0.2], 0.9, 0.3, 0.5))
+    for host, n1, metal_share in ((1.0, 1.0, 0.3), (1.35, 1.35, 0.3), (1.0, 1.59, 0.0)):
+        layer = BraggLayer.of(n1, 1.7, 100.0, 130.0, 2, 0.5)
+        stack = LayerStack.of((layer,), host, LayerBase.of([0.7, 0.5, 0.2], 0.9, metal_share, 0.5))
         colours = layer_colours("layers-single-table", stack, parameters={"nodes": 256, "wavelengths": 64})
         values = brdf(stack, Pose.of(0.7, cos_o[:, None], np.cos(phi)), colours)
         sums = np.einsum("a,b,abc->c", weights * cos_o * 0.5, weights * np.pi, values)

@@ -134,6 +134,11 @@ def test_what_leaves_a_coating_is_what_visible_normals_send_out(
     assert abs(found - over_visible_normals(inside, alpha, let_out, critical)) <= 1e-9
 
 
+def test_no_cosine_in_a_host_exceeds_one() -> None:
+    hosts = np.arange(1.0, 3.0, 1e-3)
+    assert np.all(cosine_in_host(hosts, 1.0) <= 1.0)
+
+
 @given(
     host=st.sampled_from([1.0, 1.4]),
     n1=st.sampled_from([None, 1.0, 1.59]),

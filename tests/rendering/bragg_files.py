@@ -19,6 +19,7 @@ CUTICLE = {"ior1": 1.59, "ior2": 1.67, "periodMaximum": 160.0, "fill": 0.51, "ce
 # Base colour, metalness, roughness of the base, and the extension.
 MATERIALS: dict[str, tuple[tuple[float, float, float], float, float, dict[str, Any]]] = {
     "beetle": ((0.0, 0.0, 0.0), 0.0, 0.5, {"layers": [CUTICLE | {"roughness": 0.05**0.5}]}),
+    "bright under cuticle": ((0.9, 0.8, 0.7), 0.0, 0.5, {"layers": [CUTICLE | {"roughness": 0.05**0.5}]}),
     "painted": (
         (0.6, 0.25, 0.1),
         0.0,
@@ -35,14 +36,15 @@ MATERIALS: dict[str, tuple[tuple[float, float, float], float, float, dict[str, A
 }
 
 
-def bragg_ball(folder: Path, name: str, **changes: Any) -> Path:
+def bragg_ball(folder: Path, name: str, *, darkest_texel: float = 0.0, **changes: Any) -> Path:
     """Write a ball of radius 1 m with one of MATERIALS, its extension changed, and return its file."""
     colour, metallic, roughness, layers = MATERIALS[name]
     builder = GLTFBuilder(name.replace(" ", "-"))
     u, v = texel_centres(32, 16)
     # Few full turns, so that the seam does not show; steps of a byte are far below what lobes tell apart.
     waves = [0.5 + 0.5 * np.sin(2.0 * np.pi * (turns * u + v)) for turns in (1, 2, 3)]
-    builder.texture("waves", encode_png(to_bytes(np.stack(waves, axis=-1))), repeat=True)
+    texels = darkest_texel + (1.0 - darkest_texel) * np.stack(waves, axis=-1)
+    builder.texture("waves", encode_png(to_bytes(texels)), repeat=True)
     extension = {"braggFactor": 1.0} | layers | changes
     material = builder.material(
         name,

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from bragg_files import MATERIALS, bragg_ball
+from bragg_files import CUTICLE, MATERIALS, bragg_ball
 
 from gltf_iri.baking.layer_fill import bake_layer_plans
 from gltf_iri.baking.layer_lookup import LayerLookup
@@ -193,6 +193,28 @@ def test_the_truth_is_drawn_directly(shown, record_property):
     off = np.abs(ball.drawn - sent) / np.maximum(1.0, sent)
     record_property("measured", f"layers-single in GLSL − Python {off.max():.1e}")
     assert off.max() <= 1e-3  # 512 fixed wavelengths stand for a rule that settles
+
+
+def test_periods_drawn_directly_count_from_the_darkest_texel(shown):
+    textured = CUTICLE | {"periodMinimum": 120.0, "roughness": 0.05**0.5}
+    ball = shown(
+        "beetle",
+        method="layers-single",
+        size=(12, 12),
+        darkest_texel=0.4,
+        layers=[textured],
+        braggPeriodTexture={"index": 0},
+    )
+    assert ball.baked is None and ball.plan.layers.texel.low > 0.35
+    (layer,) = ball.stack.layers
+    period_nm = 120.0 + 40.0 * ball.inputs.bragg_period_texel
+    assert np.ptp(period_nm) > 10.0
+    share = CUTICLE["fill"]
+    films = replace(layer, d1_nm=share * period_nm, d2_nm=(1.0 - share) * period_nm)
+    stack = LayerStack.of((films,), ball.stack.host_ior)
+    sent, _ = ball.under_lights(layer_colours("layers-single", stack))
+    assert sent.max() > 0.1
+    assert np.all(np.abs(ball.drawn - sent) <= 1e-3 * np.maximum(1.0, sent))  # as above
 
 
 def test_what_a_renderer_would_cut_short_is_refused(stage, shown):
