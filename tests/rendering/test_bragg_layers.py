@@ -214,7 +214,7 @@ def test_periods_drawn_directly_count_from_the_darkest_texel(shown):
     stack = LayerStack.of((films,), ball.stack.host_ior)
     sent, _ = ball.under_lights(layer_colours("layers-single", stack))
     assert sent.max() > 0.1
-    assert np.all(np.abs(ball.drawn - sent) <= 1e-3 * np.maximum(1.0, sent))  # as above
+    assert np.all(np.abs(ball.drawn - sent) <= 1e-3 * np.maximum(1.0, sent))  # as the truth is above
 
 
 def test_what_a_renderer_would_cut_short_is_refused(stage, shown):
