@@ -135,7 +135,7 @@ def _recoloured(baked: BakedLayers, method: str) -> BakedLayers:
     met, weights = layer_lobe(np.maximum(cosines, N_DOT_V_MIN), first.alpha)
     albedo = np.stack([np.sum(weights * np.interp(met, cosines, c), axis=-1) for c in colour.T], axis=-1)
     kept = [np.pad(each, ((0, 0), (0, 1)))[None].astype(np.float32) for each in (colour, albedo)]
-    return replace(baked, first=kept[0], first_albedo=kept[1])
+    return replace(baked, first=kept[0], sent=kept[1][None])
 
 
 def _typed(*arrays: NDArray[Any]) -> tuple[NDArray[Any], ...]:

@@ -76,7 +76,7 @@ class EndsTheProcess:
 
 def some_tiles(props):
     stage = build_stage(*props.scene_of(props.quad()))
-    return Job(stage, props.camera(), None, (80, 120), None, "D65", "all", True, 16, 8, 8, 0)
+    return Job(stage, props.camera(), None, (80, 120), None, None, {}, "D65", "all", True, 16, 8, 8, 0)
 
 
 def run_script(text, job, folder):
