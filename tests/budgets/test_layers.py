@@ -10,7 +10,7 @@ import pytest
 
 from gltf_iri.baking.layer_fill import filled_layers
 from gltf_iri.baking.layer_lookup import LayerLookup
-from gltf_iri.baking.layer_resolution import lookup_terms
+from gltf_iri.baking.layer_resolution import fit_layer_tables, lookup_terms
 from gltf_iri.baking.layer_samples import COLOURS, doubt_of, p95_guess, sampled_layers
 from gltf_iri.budgets.candidates import Candidate
 from gltf_iri.budgets.choose import Asked
@@ -27,6 +27,7 @@ from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.planning.layer_plan import LayersPlan, LayerTables, PlannedLayer
 from gltf_iri.planning.layers import plan_layers
 from gltf_iri.planning.reach import Span
+from gltf_iri.tolerances import GLSL_FILM_DELTA_E
 
 SHARP = PlannedLayer(0, 1.0, 1.5, (200.0, 200.0), 0.4, 8, 0.09)
 SOFT = PlannedLayer(1, 1.0, 1.7, (250.0, 250.0), 0.5, 4, 0.2)
@@ -65,6 +66,18 @@ def test_budgets_are_kept_at_other_poses_by_the_truth_itself(budget: float) -> N
     found = lookup_terms(filled_layers(plan, "D65", has_sky=False), samples)
     for a, b in zip(found, exact, strict=True):
         assert np.quantile(delta_e_2000(a, b), 0.95) <= plan.delta_e
+
+
+def test_what_single_precision_adds_is_stated() -> None:
+    plan = chosen(1.0)
+    assert plan.tables is not None and plan.delta_e is not None
+    assert plan.delta_e - plan.tables.delta_e == pytest.approx(GLSL_FILM_DELTA_E)
+
+
+def test_what_the_samples_own_truth_errs_by_is_stated(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gltf_iri.baking.layer_resolution.doubt_of", lambda *_: 2.0)
+    fit = fit_layer_tables(TWO, 3.0)
+    assert fit.tables is not None and 2.0 < fit.tables.delta_e <= 3.0
 
 
 def test_less_is_asked_for_with_more_bands_and_nodes() -> None:
