@@ -61,15 +61,18 @@ def coating_transmittance(host_ior: ArrayLike, cos_theta: ArrayLike) -> Float64:
     return np.asarray(0.5 * (t_s + t_p))
 
 
-def half_vector(cos_i: ArrayLike, cos_o: ArrayLike, turn: ArrayLike) -> tuple[Float64, Float64]:
+def half_vector(
+    cos_i: ArrayLike, cos_o: ArrayLike, turn: ArrayLike, sines: tuple[Float64, Float64] | None = None
+) -> tuple[Float64, Float64]:
     """Return i·h and |n×h|² of the half vector h; arrays broadcast.
 
     i·o = c_i c_o + s_i s_o cosφ, i·h = √(½(1 + i·o)) and |n×h|² = |s_i + s_o e^{iφ}|² / (2(1 + i·o)).
 
     cos_i, cos_o : in [0, 1]; turn : 1 + cosφ of the turn between them, in [0, 2], 0 in the mirror direction.
+    sines : of the same angles, where they are known better than the cosines know them: near the normal.
     """
     i, o, t = (np.asarray(x, np.float64) for x in (cos_i, cos_o, turn))
-    sin_i, sin_o = (np.sqrt((1.0 - c) * (1.0 + c)) for c in (i, o))
+    sin_i, sin_o = sines or (_sine(i), _sine(o))
     product = sin_i * sin_o
     # 1 + i·o = 1 + cos(θ_i + θ_o) + s_i s_o (1 + cosφ); the first two are (c_i + c_o)²/(1 + cos(θ_i − θ_o)).
     total = (i + o) ** 2 / (1.0 + i * o + product) + product * t
@@ -89,8 +92,10 @@ def sight_of(
         about the normal, −1 where the viewer stands in the plane and on the side of the mirrored light.
     """
     cos_i, cos_o = cosine_in_host(host_ior, cos_theta_i), cosine_in_host(host_ior, cos_theta_o)
-    cos_h, n_cross_h_squared = half_vector(cos_i, cos_o, 1.0 + np.asarray(cos_phi, np.float64))
     n = np.asarray(host_ior, np.float64)
+    # Snell's law for sines: near the normal a cosine inside has lost the angle's digits.
+    sines = _sine(cos_theta_i) / n, _sine(cos_theta_o) / n
+    cos_h, n_cross_h_squared = half_vector(cos_i, cos_o, 1.0 + np.asarray(cos_phi, np.float64), sines)
     outside = coating_transmittance(n, cos_theta_i) * coating_transmittance(n, cos_theta_o) / (n * n)
     return Sight(
         cos_i,
@@ -99,3 +104,8 @@ def sight_of(
         n_cross_h_squared,
         np.asarray(np.where(n == 1.0, 1.0, outside)),
     )
+
+
+def _sine(cosine: ArrayLike) -> Float64:
+    c = np.asarray(cosine, np.float64)
+    return np.asarray(np.sqrt((1.0 - c) * (1.0 + c)))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -163,6 +163,7 @@ def test_the_mirror_image_of_a_smooth_layer_is_told_as_undefined() -> None:
     o=st.floats(0.01, 1.0),
     phi=st.floats(0.0, np.pi),
 )
+@example(host=1.35, i=0.5, o=0.9999999999999999, phi=0.0)  # whose cosine inside is 1
 @settings(max_examples=60, deadline=None)
 def test_layers_see_what_vectors_in_space_say(host: float, i: float, o: float, phi: float) -> None:
     def inside(cosine: float, turn: float) -> Float64:
