@@ -24,7 +24,7 @@ from gltf_iri.evaluation.layers import LayerStack
 from gltf_iri.optics.rough_bragg import g1_smith
 from gltf_iri.optics.visible_normals import draw_facet, mirrored
 
-__all__ = ["StackFacets"]
+__all__ = ["StackFacets", "passing_chance"]
 
 Float64 = NDArray[np.float64]
 
@@ -121,3 +121,13 @@ class StackFacets:
         cosine = np.maximum(np.cos(np.linspace(0.0, 0.5 * np.pi, nodes)), _COS_MIN)
         passed = self._layers[layer].transmissivity(cosine, self.wavelength_nm)
         return np.asarray(passed / g1_smith(cosine, alpha)[:, None])
+
+
+def passing_chance(passage: Float64, g1: Float64) -> Float64:
+    """Return p_trans = T / (1 − A/2) = 2 T/(1 + G₁), T = passage·G₁; Fourneau et al. 2024, Eq. 30 and 31.
+
+    What masking takes, A = 1 − G₁, is shared between what is reflected and what passes.
+
+    passage : T/G₁, averaged over the wavelengths that a path carries; g1 : the share of facets that are seen.
+    """
+    return np.asarray(2.0 * passage * g1 / (1.0 + g1))

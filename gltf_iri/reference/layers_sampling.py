@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from gltf_iri.optics.layer_stack import cosine_in_host
 from gltf_iri.optics.rough_bragg import g1_smith
 from gltf_iri.optics.visible_normals import draw_facet, mirror_density, mirrored
-from gltf_iri.reference.layers_facets import StackFacets
+from gltf_iri.reference.layers_facets import StackFacets, passing_chance
 
 __all__ = ["LayerSampler"]
 
@@ -43,7 +43,7 @@ class LayerSampler:
         for layer in range(self.facets.count):
             alpha = self.facets.alpha(layer)
             g1 = g1_smith(cosine, alpha)
-            passing = 2.0 * self.facets.facet_passage(layer, cosine).mean(axis=1) * g1 / (1.0 + g1)
+            passing = passing_chance(self.facets.facet_passage(layer, cosine).mean(axis=1), g1)
             shares.append(reaching * np.maximum(1.0 - passing, 0.0) * (alpha > 0.0))
             alphas.append(alpha)
             reaching = reaching * passing

@@ -25,7 +25,7 @@ from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.optics.layer_stack import coating_transmittance, cosine_in_host
 from gltf_iri.optics.rough_bragg import g1_smith
 from gltf_iri.optics.visible_normals import draw_facet, mirrored
-from gltf_iri.reference.layers_facets import StackFacets
+from gltf_iri.reference.layers_facets import StackFacets, passing_chance
 
 __all__ = ["FATES", "Observer", "Rows", "Transmission", "Walk"]
 
@@ -165,7 +165,7 @@ class Walk:
             return is_reflected, light, taken / chosen[:, None]
         passage = self.facets.facet_passage(layer, view[:, 2])
         g1 = g1_smith(view[:, 2], self.facets.alpha(layer))
-        probability = 2.0 * (passage @ self._shares) * g1 / (1.0 + g1)
+        probability = passing_chance(passage @ self._shares, g1)
         is_reflected = chance >= probability
         light, taken = view.copy(), passage
         light[is_reflected], taken[is_reflected] = self.facets.drawn_facet(

@@ -10,7 +10,7 @@ from layers_three_wavelengths import ROUGH, ThreeWavelengths, binned_model
 
 from gltf_iri.evaluation.layers import BraggLayer, LayerBase, LayerStack, Pose, brdf
 from gltf_iri.optics.quadrature import gauss_unit
-from gltf_iri.reference.layers_facets import StackFacets
+from gltf_iri.reference.layers_facets import StackFacets, passing_chance
 from gltf_iri.reference.layers_sampling import LayerSampler
 from gltf_iri.reference.layers_tally import Bins
 
@@ -136,3 +136,9 @@ def test_what_has_no_brdf_is_not_drawn() -> None:
     over = sampler_of(LayerStack.of((SMOOTH, A)))
     np.testing.assert_allclose(over.lobes(light)[0][0], [0.0, 1.0, 0.0, 0.0])
     assert np.all(smooth.density(light, -light) == 0.0)
+
+
+def test_a_transmitted_path_weighs_what_eq_32_says() -> None:
+    g1 = np.array([0.1, 0.5, 1.0])
+    passage = np.array([0.9, 0.3, 0.7])
+    np.testing.assert_allclose(passage * g1 / passing_chance(passage, g1), 0.5 * (1.0 + g1), rtol=1e-14)
