@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.errors import UsageError
 from gltf_iri.planning.layer_plan import LayersPlan
+from gltf_iri.planning.material_plan import MaterialPlan
 
-__all__ = ["BakedLayers"]
+__all__ = ["BakedLayers", "given_tables"]
 
 Float64 = NDArray[np.float64]
 Floats = NDArray[np.floating[Any]]
@@ -46,3 +49,14 @@ class BakedLayers:
     white: str
     filled_in_s: float = 0.0
     is_cached: bool = False
+
+
+def given_tables(plan: MaterialPlan, layer_tables: Mapping[int, BakedLayers], white: str) -> BakedLayers:
+    """Return the tables given for `plan`, by its index; UsageError where they are missing or others'."""
+    baked = layer_tables.get(plan.index)
+    if baked is None or baked.plan != plan.layers or baked.white != white:
+        raise UsageError(
+            f"The plan of material {plan.index} wants tables of its layers under {white}, and "
+            f"{'none' if baked is None else 'others'} were given; fill them with bake_layer_plans."
+        )
+    return baked

@@ -8,10 +8,9 @@ from typing import Final, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.baking.baked_layers import BakedLayers
+from gltf_iri.baking.baked_layers import BakedLayers, given_tables
 from gltf_iri.baking.layer_lookup import LayerLookup
 from gltf_iri.colour.spaces import White
-from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.layer_methods import layer_colours
 from gltf_iri.evaluation.planned_stack import planned_stack
 from gltf_iri.planning.material_plan import MaterialPlan
@@ -39,13 +38,7 @@ def check_layers(
         return None
     if plan.layers is None or plan.layers.tables is None:
         return None
-    baked = layer_tables.get(plan.index)
-    if baked is None or baked.plan != plan.layers or baked.white != white:
-        raise UsageError(
-            f"The plan of material {plan.index} wants tables of its layers under {white}, and "
-            f"{'none' if baked is None else 'others'} were given; fill them with bake_layer_plans."
-        )
-    return baked
+    return given_tables(plan, layer_tables, white)
 
 
 def layers_method(

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.baking.baked_layers import BakedLayers
+from gltf_iri.baking.baked_layers import BakedLayers, given_tables
 from gltf_iri.errors import MissingCapabilityError, UsageError
 from gltf_iri.optics.host_entrance import entering_irradiance
 from gltf_iri.planning.layer_plan import LayersPlan
@@ -58,13 +58,7 @@ def checked_layers(
     if plan.layers.tables is None:
         check_layers_method(plan.layers.method)
         return None
-    baked = layer_tables.get(plan.index)
-    if baked is None or baked.plan != plan.layers or baked.white != white:
-        raise UsageError(
-            f"The plan of material {plan.index} wants tables of its layers under {white}, and "
-            f"{'none' if baked is None else 'others'} were given; fill them with bake_layer_plans."
-        )
-    return baked
+    return given_tables(plan, layer_tables, white)
 
 
 class LayerTableStore:
