@@ -8,18 +8,21 @@ from typing import ClassVar, Final
 from gltf_iri.material.fields import nested_list, number, texture_info, whole_number
 from gltf_iri.material.texture import TextureInfo
 
-__all__ = ["BRAGG_LAYERS_MAX", "Bragg", "MirrorLayer"]
+__all__ = ["BRAGG_CELLS_MAX", "BRAGG_LAYERS_MAX", "Bragg", "MirrorLayer"]
 
+# What every implementation must accept, and all that this one draws; a file may hold more.
 BRAGG_LAYERS_MAX: Final = 4
-_CELLS_MAX: Final = 1000
+BRAGG_CELLS_MAX: Final = 1000
 
 
 @dataclass(frozen=True, slots=True)
 class MirrorLayer:
     """One layer: facets that are mirrors of equal cells, each of two films, the first met first."""
 
-    ior_1: float = number("ior1", 1.0, "Refractive index of each cell's first film.", low=1.0, high=10.0)
-    ior_2: float = number("ior2", 1.5, "Refractive index of each cell's second film.", low=1.0, high=10.0)
+    ior_1: float | None = number(
+        "ior1", None, "Refractive index of each cell's first film; absent, that of the host.", low=1.0
+    )
+    ior_2: float = number("ior2", 1.5, "Refractive index of each cell's second film.", low=1.0)
     period_min_nm: float = number(
         "periodMinimum", 250.0, "Thickness of a cell at a texture value of 0.", low=0.0, unit="nm"
     )
@@ -27,8 +30,12 @@ class MirrorLayer:
         "periodMaximum", 250.0, "Thickness of a cell at 1, or without texture.", low=0.0, unit="nm"
     )
     fill: float = number("fill", 0.5, "Share of the first film in a cell.", low=0.0, high=1.0)
-    cells: int = whole_number("cells", 1, "How many cells.", low=1, high=_CELLS_MAX)
+    cells: int = whole_number("cells", 1, "How many cells.", low=1)
     roughness: float = number("roughness", 0.0, "Perceptual roughness of the facets.", low=0.0, high=1.0)
+
+    def first_ior(self, host_ior: float) -> float:
+        """Return the index of the first film of a layer that lies in a host of `host_ior`."""
+        return host_ior if self.ior_1 is None else self.ior_1
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,12 +48,8 @@ class Bragg:
     texture: TextureInfo | None = texture_info(
         "braggTexture", TextureInfo, "Multiplies the factor.", channels="r", colour_space="linear"
     )
-    host_ior: float = number(
-        "hostIor", 1.0, "Refractive index of what the layers lie in.", low=1.0, high=10.0
-    )
-    layers: tuple[MirrorLayer, ...] = nested_list(
-        "layers", MirrorLayer, "The layers, outermost first.", most=BRAGG_LAYERS_MAX
-    )
+    host_ior: float = number("hostIor", 1.0, "Refractive index of what the layers lie in.", low=1.0)
+    layers: tuple[MirrorLayer, ...] = nested_list("layers", MirrorLayer, "The layers, outermost first.")
     period_texture: TextureInfo | None = texture_info(
         "braggPeriodTexture",
         TextureInfo,

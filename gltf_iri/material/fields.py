@@ -31,7 +31,7 @@ class Kind(Enum):
     INDEX = auto()  # a reference into another top-level array
     WHOLE_NUMBER = auto()
     NESTED = auto()  # an object with its own dataclass
-    NESTED_LIST = auto()  # an array of such objects, `length` of them at most
+    NESTED_LIST = auto()  # an array of such objects
     TEXTURE = auto()  # a textureInfo object
     EXTENSION = auto()  # an object under "extensions"
 
@@ -49,7 +49,7 @@ class Property:
     high: float | None = None
     low_is_excluded: bool = False
     also_allowed: float | None = None  # one legal value outside [low, high]: KHR_materials_ior's 0
-    length: int = 1  # components of a VECTOR; the most that a NESTED_LIST holds
+    length: int = 1  # components of a VECTOR
     choices: tuple[str, ...] = ()
     refers_to: str = ""  # top-level array of an INDEX
     required: bool = False
@@ -153,14 +153,14 @@ def nested(key: str, cls: type, about: str) -> Any:
     return _field(Property(Kind.NESTED, key, about, cls=cls))
 
 
-def nested_list(key: str, cls: type, about: str, *, most: int) -> Any:
-    """State an array of at most `most` objects; when absent it is empty."""
-    return _field(Property(Kind.NESTED_LIST, key, about, (), length=most, cls=cls))
+def nested_list(key: str, cls: type, about: str) -> Any:
+    """State an array of objects; when absent it is empty."""
+    return _field(Property(Kind.NESTED_LIST, key, about, (), cls=cls))
 
 
-def whole_number(key: str, default: int, about: str, *, low: int, high: int) -> Any:
+def whole_number(key: str, default: int, about: str, *, low: int) -> Any:
     """State an integer property."""
-    return _field(Property(Kind.WHOLE_NUMBER, key, about, default, low=low, high=high))
+    return _field(Property(Kind.WHOLE_NUMBER, key, about, default, low=low))
 
 
 def texture_info(key: str, cls: type, about: str, *, channels: str, colour_space: ColourSpace) -> Any:

@@ -87,11 +87,6 @@ class Rows:
     def _nested_list(self, row: Property, value: Any, pointer: str) -> tuple[Any, ...]:
         if not isinstance(value, list):
             raise _mismatch(value, "an array of objects", pointer)
-        if len(value) > row.length:
-            raise AssetError(
-                f"{len(value)} entries stand where at most {row.length} are read; merge or remove some",
-                pointer=pointer,
-            )
         return tuple(self._nested(row, item, f"{pointer}/{i}") for i, item in enumerate(value))
 
     def _index(self, row: Property, value: Any, pointer: str) -> int:

@@ -80,8 +80,6 @@ def _value(row: Property) -> str:
 def _range(row: Property) -> str:
     if row.choices:
         return ", ".join(row.choices)
-    if row.kind is Kind.NESTED_LIST:
-        return f"{row.length} objects at most"
     if row.low is None and row.high is None:
         return ""
     return row.range_text

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Final
 
-from gltf_iri.material.bragg import Bragg, MirrorLayer
+from gltf_iri.material.bragg import BRAGG_CELLS_MAX, BRAGG_LAYERS_MAX, Bragg, MirrorLayer
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.material.transmission import Transmission
@@ -23,6 +23,9 @@ __all__ = ["bragg_verdicts", "layer_reflects", "period_texel", "verdicts_below"]
 
 # Cells so thick colour nothing: their fringes are finer than any light that is seen is pure.
 _PERIOD_MAX_NM: Final = 1e5
+
+# No transparent film is as dense.
+_IOR_MAX: Final = 10.0
 
 _EFFECTS: Final = (Effect.BRAGG, Effect.BRAGG_TEXTURE, Effect.BRAGG_PERIOD_TEXTURE)
 
@@ -68,10 +71,11 @@ def verdicts_below(material: Material, judged: Mapping[Effect, Verdict]) -> Iter
 
 def layer_reflects(layer: MirrorLayer, host_ior: float) -> bool:
     """True where `layer` is to be seen in its host: an index differs, in a thickness above 0 if it is n2."""
-    if layer.ior_1 != host_ior:
+    ior_1 = layer.first_ior(host_ior)
+    if ior_1 != host_ior:
         return True
     has_films = layer.fill < 1.0 and max(layer.period_min_nm, layer.period_max_nm) > 0.0
-    return has_films and layer.ior_2 != layer.ior_1
+    return has_films and layer.ior_2 != ior_1
 
 
 def period_texel(material: Material, document: Document | None) -> Span:
@@ -99,12 +103,26 @@ def _missing(material: Material, bragg: Bragg, folded: Mapping[Effect, str]) -> 
         return NotDrawn(f"{Iridescence.EXTENSION} on the same material excludes it")
     if dict(transmission_verdicts(material, folded))[Effect.TRANSMISSION] is None:
         return NotDrawn(f"it is not drawn together with {Transmission.EXTENSION}")
-    longest = max(max(layer.period_min_nm, layer.period_max_nm) for layer in bragg.layers)
-    if longest > _PERIOD_MAX_NM:
-        return NotDrawn(f"a period of {longest:g} nm is beyond the {_PERIOD_MAX_NM:g} nm that are simulated")
-    *above, last = (layer.ior_1 != bragg.host_ior for layer in bragg.layers)
+    if told := _beyond(bragg):
+        return NotDrawn(f"{told} that are simulated")
+    *above, last = (layer.first_ior(bragg.host_ior) != bragg.host_ior for layer in bragg.layers)
     if any(above):
         return NotDrawn("a first index that is not the host's bends light: only the last layer may have one")
     if last and metal_verdict(material, folded) is None:
         return NotDrawn("the last layer's first index is not the host's, and through it no metal is drawn")
     return None
+
+
+def _beyond(bragg: Bragg) -> str:
+    """Return what of `bragg` is more than is simulated; "" where nothing is."""
+    if len(bragg.layers) > BRAGG_LAYERS_MAX:
+        return f"{len(bragg.layers)} layers are more than the {BRAGG_LAYERS_MAX}"
+    cells = max(layer.cells for layer in bragg.layers)
+    if cells > BRAGG_CELLS_MAX:
+        return f"{cells} cells are more than the {BRAGG_CELLS_MAX}"
+    periods = [nm for layer in bragg.layers for nm in (layer.period_min_nm, layer.period_max_nm)]
+    if max(periods) > _PERIOD_MAX_NM:
+        return f"a period of {max(periods):g} nm is beyond the {_PERIOD_MAX_NM:g} nm"
+    of_films = [n for layer in bragg.layers for n in (layer.first_ior(1.0), layer.ior_2)]
+    index = max(bragg.host_ior, *of_films)
+    return f"an index of {index:g} is beyond the indices up to {_IOR_MAX:g}" if index > _IOR_MAX else ""

@@ -115,15 +115,16 @@ def _kept(bragg: Bragg, texel: Span) -> tuple[list[PlannedLayer], list[str]]:
         if layer.roughness**2 <= ALPHA_MIN:
             simpler.append(f"layer {i} is smooth: its facets are met at the light's own angle, unfiltered")
         low, high = (_period(layer, t) for t in (texel.low, texel.high))
+        ior_1 = layer.first_ior(bragg.host_ior)
         # d2 does not decide whether the layer is a film.
-        if film_in_mirror(layer.ior_1, layer.ior_2, 0.0, layer.cells, bragg.host_ior) is not None:
+        if film_in_mirror(ior_1, layer.ior_2, 0.0, layer.cells, bragg.host_ior) is not None:
             thinnest, thickest = sorted((1.0 - layer.fill) * nm for nm in (low, high))
             nm = f"{thickest:.4g}" if thinnest == thickest else f"{thinnest:.4g} to {thickest:.4g}"
             simpler.append(f"layer {i} is a film: {_ONE_CELL} is {nm} nm of n2 = {layer.ior_2:g}")
         layers.append(
             PlannedLayer(
                 i,
-                layer.ior_1,
+                ior_1,
                 layer.ior_2,
                 (low, high),
                 layer.fill,

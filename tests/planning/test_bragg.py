@@ -15,6 +15,7 @@ from gltf_iri.material.unlit import Unlit
 from gltf_iri.planning.bragg import period_texel
 from gltf_iri.planning.decide import plan_material, plan_materials
 from gltf_iri.planning.effects import Effect
+from gltf_iri.planning.layers import plan_layers
 from gltf_iri.planning.reach import Span
 
 T = TextureInfo(0)
@@ -67,6 +68,9 @@ def test_a_layer_that_reflects_anywhere_is_drawn(layer):
     [
         (made(iridescence=Iridescence()), "KHR_materials_iridescence"),
         (made(transmission=Transmission(0.5)), "KHR_materials_transmission"),
+        (made(replace(ONE, layers=(LAYER,) * 5)), "5 layers are more than the 4"),
+        (made(replace(ONE, layers=(replace(LAYER, cells=1001),))), "1001 cells are more than the 1000"),
+        (made(replace(ONE, layers=(replace(LAYER, ior_2=11.0),))), "an index of 11 is beyond"),
         (made(replace(ONE, layers=(replace(LAYER, ior_1=1.2), LAYER))), "only the last layer"),
         (made(replace(ONE, layers=(replace(LAYER, ior_1=1.2),)), MetallicRoughness()), "no metal"),
     ],
@@ -75,6 +79,12 @@ def test_what_is_asked_for_and_not_drawn_is_admitted(material, named):
     plan = plan_material(material, 0)
     assert named in plan.not_drawn["bragg"]
     assert not plan.calls_for(Effect.BRAGG)
+
+
+def test_a_first_index_that_nobody_names_is_that_of_the_host():
+    named = replace(ONE, host_ior=1.4, layers=(replace(LAYER, ior_1=1.4),))
+    unnamed = replace(ONE, host_ior=1.4, layers=(LAYER,))
+    assert plan_layers(made(unnamed)) == plan_layers(made(named))
 
 
 def test_a_transmission_that_lets_nothing_through_does_not_stop_layers():
