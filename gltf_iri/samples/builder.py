@@ -77,6 +77,7 @@ class GLTFBuilder:
         metallic: float,
         roughness: float,
         extensions: Mapping[str, Mapping[str, Any]],
+        base_color_texture: int | None = None,
         normal_texture: int | None = None,
         normal_repeats: float = 1.0,
         double_sided: bool = False,
@@ -90,6 +91,8 @@ class GLTFBuilder:
             metallicFactor=metallic,
             roughnessFactor=roughness,
         )
+        if base_color_texture is not None:
+            metallic_roughness.baseColorTexture = self._model.TextureInfo(index=base_color_texture)
         material = self._model.Material(
             name=name,
             pbrMetallicRoughness=metallic_roughness,
@@ -103,13 +106,22 @@ class GLTFBuilder:
             )
             self._use("KHR_texture_transform")
         self._gltf.materials.append(material)
-        self._use(*extensions)
+        infos = [info for e in extensions.values() for info in e.values() if isinstance(info, Mapping)]
+        self._use(*extensions, *(name for info in infos for name in info.get("extensions", ())))
         return len(self._gltf.materials) - 1
 
     def mesh(
-        self, name: str, shape: Shape, material: int, rotation: ArrayLike = (0.0, 0.0, 0.0, 1.0)
+        self,
+        name: str,
+        shape: Shape,
+        material: int,
+        rotation: ArrayLike = (0.0, 0.0, 0.0, 1.0),
+        translation_m: ArrayLike = (0.0, 0.0, 0.0),
     ) -> None:
-        """Add a mesh and the node that holds it, turned by the unit quaternion `rotation` (x, y, z, w)."""
+        """Add a mesh and the node that holds it.
+
+        The node is turned by the unit quaternion `rotation` (x, y, z, w), then moved by `translation_m`.
+        """
         attributes = self._model.Attributes(
             POSITION=self._vertices(shape.positions, "VEC3", bounded=True),
             NORMAL=self._vertices(shape.normals, "VEC3"),
@@ -120,7 +132,10 @@ class GLTFBuilder:
         primitive = self._model.Primitive(attributes=attributes, indices=indices, material=material)
         self._gltf.meshes.append(self._model.Mesh(name=name, primitives=[primitive]))
         mesh = len(self._gltf.meshes) - 1
-        self._place(self._model.Node(name=name, mesh=mesh, rotation=rounded_list(rotation)))
+        node = self._model.Node(name=name, mesh=mesh, rotation=rounded_list(rotation))
+        if np.any(translation_m):
+            node.translation = rounded_list(translation_m)
+        self._place(node)
 
     def perspective_camera(self, eye: ArrayLike, target: ArrayLike, yfov_rad: float) -> None:
         """Add a camera at `eye` (m) that looks at `target`."""
@@ -170,8 +185,10 @@ class GLTFBuilder:
         self._gltf.extensionsUsed = sorted({*self._gltf.extensionsUsed, *extensions})
 
     def _has_textures(self, material: int) -> bool:
-        extensions = self._gltf.materials[material].extensions.values()
-        return self._has_normals(material) or any(key.endswith("Texture") for e in extensions for key in e)
+        made = self._gltf.materials[material]
+        has_base_color = made.pbrMetallicRoughness.baseColorTexture is not None
+        in_extensions = any(key.endswith("Texture") for e in made.extensions.values() for key in e)
+        return has_base_color or self._has_normals(material) or in_extensions
 
     def _has_normals(self, material: int) -> bool:
         return self._gltf.materials[material].normalTexture is not None

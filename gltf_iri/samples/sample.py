@@ -19,6 +19,7 @@ class Sample:
     look_for: str  # paragraphs of the README
     sources: str  # where the numbers come from, a paragraph of the README
     files: Mapping[str, bytes]  # file name → content; the first one is the asset itself
+    fallback: str = ""  # what a renderer shows that ignores EXT_materials_bragg, a paragraph of the README
 
     @property
     def file(self) -> str:
@@ -28,13 +29,8 @@ class Sample:
     @property
     def readme(self) -> str:
         """Text of the sample's README.md."""
-        parts = [
-            f"# {self.title}",
-            self.shows,
-            "## What to look for",
-            self.look_for,
-            "## Numbers",
-            self.sources,
-        ]
+        parts = [f"# {self.title}", self.shows, "## What to look for", self.look_for]
+        parts += ["## Without the extension", self.fallback] if self.fallback else []
+        parts += ["## Numbers", self.sources]
         paragraphs = "\n\n".join(parts).split("\n\n")
         return "\n\n".join(textwrap.fill(p, 100, break_on_hyphens=False) for p in paragraphs) + "\n"
