@@ -47,6 +47,7 @@ class GLTFBuilder:
         self._binary = bytearray()
         self._images: list[tuple[str, bytes]] = []
         self._lights: list[dict[str, Any]] = []
+        self._geometry: dict[tuple[int, bool, bool], tuple[Shape, dict[str, int], int]] = {}
         self._gltf = pygltflib.GLTF2(
             asset=pygltflib.Asset(
                 generator="gltf-iri samples", copyright="gltf-iri contributors, Apache-2.0"
@@ -118,24 +119,35 @@ class GLTFBuilder:
         rotation: ArrayLike = (0.0, 0.0, 0.0, 1.0),
         translation_m: ArrayLike = (0.0, 0.0, 0.0),
     ) -> None:
-        """Add a mesh and the node that holds it.
+        """Add a mesh and the node that holds it; the same `shape` again costs no further vertices.
 
-        The node is turned by the unit quaternion `rotation` (x, y, z, w), then moved by `translation_m`.
+        rotation : unit quaternion (x, y, z, w); then the node is moved by translation_m, (3,).
         """
-        attributes = self._model.Attributes(
-            POSITION=self._vertices(shape.positions, "VEC3", bounded=True),
-            NORMAL=self._vertices(shape.normals, "VEC3"),
-            TEXCOORD_0=self._vertices(shape.uvs, "VEC2") if self._has_textures(material) else None,
-            TANGENT=self._vertices(shape.tangents, "VEC4") if self._has_normals(material) else None,
+        attributes, indices = self._shape(shape, self._has_textures(material), self._has_normals(material))
+        primitive = self._model.Primitive(
+            attributes=self._model.Attributes(**attributes), indices=indices, material=material
         )
-        indices = self._accessor(shape.triangles.ravel(), "SCALAR", _UNSIGNED_SHORT, _INDICES)
-        primitive = self._model.Primitive(attributes=attributes, indices=indices, material=material)
         self._gltf.meshes.append(self._model.Mesh(name=name, primitives=[primitive]))
-        mesh = len(self._gltf.meshes) - 1
-        node = self._model.Node(name=name, mesh=mesh, rotation=rounded_list(rotation))
+        node = self._model.Node(name=name, mesh=len(self._gltf.meshes) - 1, rotation=rounded_list(rotation))
         if np.any(translation_m):
             node.translation = rounded_list(translation_m)
         self._place(node)
+
+    def _shape(self, shape: Shape, textured: bool, bumpy: bool) -> tuple[dict[str, int], int]:
+        """Return the accessors of the attributes and of the triangles of `shape`, added once."""
+        key = (id(shape), textured, bumpy)
+        if key not in self._geometry:
+            attributes = {
+                "POSITION": self._vertices(shape.positions, "VEC3", bounded=True),
+                "NORMAL": self._vertices(shape.normals, "VEC3"),
+            }
+            if textured:
+                attributes["TEXCOORD_0"] = self._vertices(shape.uvs, "VEC2")
+            if bumpy:
+                attributes["TANGENT"] = self._vertices(shape.tangents, "VEC4")
+            indices = self._accessor(shape.triangles.ravel(), "SCALAR", _UNSIGNED_SHORT, _INDICES)
+            self._geometry[key] = (shape, attributes, indices)  # the shape stays, and its id with it
+        return self._geometry[key][1:]
 
     def perspective_camera(self, eye: ArrayLike, target: ArrayLike, yfov_rad: float) -> None:
         """Add a camera at `eye` (m) that looks at `target`."""
