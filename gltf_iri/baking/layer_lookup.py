@@ -59,6 +59,10 @@ class LayerLookup:
         """Return (..., 3), the colour of Π_k T_k(i) T_k(o) over all layers."""
         return np.asarray(self._through(len(self._baked.plan.layers), cos_i, cos_o) @ self._baked.weights)
 
+    def entering(self, cos_i: ArrayLike) -> Float64:
+        """Return (..., 3), the colour of Π_k T_k(i) over all layers: of light that crosses them once."""
+        return np.asarray(self._through(len(self._baked.plan.layers), cos_i) @ self._baked.weights)
+
     def image(self, n_dot_v: ArrayLike, metal_roughness: ArrayLike = 0.0) -> ImageColours:
         """Return what image light becomes, seen at the cosine `n_dot_v` in the host.
 
@@ -84,11 +88,12 @@ class LayerLookup:
             terms.append(np.asarray((1.0 - on) * here + on * there))
         return ImageColours(layers, diffuse, *terms)
 
-    def _through(self, layers: int, cos_i: ArrayLike, cos_o: ArrayLike) -> Float64:
-        """Return Π_{k<layers} T_k(i) T_k(o), (..., B')."""
+    def _through(self, layers: int, *cosines: ArrayLike) -> Float64:
+        """Return Π_{k<layers} T_k, once for each of `cosines`, (..., B')."""
         product = np.ones(self._baked.weights.shape[0])
         for transmitted in self._baked.transmitted[:layers]:
-            product = product * self._at(transmitted, cos_i) * self._at(transmitted, cos_o)
+            for cosine in cosines:
+                product = product * self._at(transmitted, cosine)
         return product
 
     def _at(self, texels: Floats, cosine: ArrayLike) -> Float64:

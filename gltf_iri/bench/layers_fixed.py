@@ -112,14 +112,21 @@ class FixedRules:
 
     def passed(self, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (rows, 3), the colour of Π_k T_k(i) T_k(o) over all layers."""
-        through = self._through(len(self._stack.layers), cos_i, cos_o)
+        return self._crossing(cos_i, cos_o)
+
+    def entering(self, cos_i: Float64) -> Float64:
+        """Return (rows, 3), the colour of Π_k T_k(i) over all layers: of light that crosses them once."""
+        return self._crossing(cos_i)
+
+    def _crossing(self, *cosines: Float64) -> Float64:
+        through = self._through(len(self._stack.layers), *cosines)
         if self._means is not None:
             return self._means(through)
         return np.asarray(np.prod(through, axis=0) @ self._rule.weights)
 
-    def _through(self, above: int, cos_i: Float64, cos_o: Float64) -> list[Float64]:
+    def _through(self, above: int, *cosines: Float64) -> list[Float64]:
         factors = []
-        for number, cosine in itertools.product(range(above), (cos_i, cos_o)):
+        for number, cosine in itertools.product(range(above), cosines):
             nodes, weights = filter_nodes(cosine, self._stack.layers[number].alpha, count=FILTER_POINTS)
             if self._step_rad:
                 nodes = np.cos(np.clip(np.arccos(nodes) + self._step_rad, 0.0, 0.5 * np.pi))
@@ -185,7 +192,7 @@ def moved_by_steps(case: Case, rules: tuple[ColourRule, ColourRule], truth: Sequ
 
 
 class _Known:
-    """`LayerColours` that are known already: of each layer, and what passes all."""
+    """`MirroredColours` that are known already: of each layer, and what passes all."""
 
     def __init__(self, reflected: list[Float64], passed: Float64) -> None:
         self._reflected, self._passed = reflected, passed

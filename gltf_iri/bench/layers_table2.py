@@ -106,10 +106,14 @@ class YehModel:
         """Return (n, 3), the colour of Π_k T_k(i) T_k(o)."""
         return np.asarray(self._through(self._facets.count, cos_i, cos_o) @ self._weights)
 
-    def _through(self, layers: int, cos_i: Float64, cos_o: Float64) -> Float64:
+    def entering(self, cos_i: Float64) -> Float64:
+        """Return (n, 3), the colour of Π_k T_k(i): of light that crosses the layers once."""
+        return np.asarray(self._through(self._facets.count, cos_i) @ self._weights)
+
+    def _through(self, layers: int, *cosines: Float64) -> Float64:
         product = np.ones(1)
         for layer in range(layers):
-            for cosine in (cos_i, cos_o):
+            for cosine in cosines:
                 along = np.atleast_1d(cosine)
                 g1 = g1_smith(along, self._facets.alpha(layer))
                 product = product * self._facets.facet_passage(layer, along) * g1[:, None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -37,16 +38,16 @@ class FacetRows:
 
 
 class PassingRows:
-    """What one layer of a stack lets through on the way in and on the way out; cosines (r,) in the host."""
+    """What one layer of a stack lets through, once for each of some cosines (r,) in the host: in, and out."""
 
     def __init__(
         self,
         layer: BraggLayer,
         host_ior: Float64,
         shape: tuple[int, ...],
-        cosines: tuple[Float64, Float64],
+        cosines: Sequence[Float64],
     ) -> None:
-        self._cosines = cosines
+        self._cosines = tuple(cosines)
         fields = layer.n1, layer.n2, layer.d1_nm, layer.d2_nm, layer.cells, layer.alpha, host_ior
         columns = [_column(np.asarray(a, np.float64), shape)[:, 0] for a in fields]
         table = np.stack(np.broadcast_arrays(*columns), axis=-1)
@@ -65,20 +66,21 @@ class PassingRows:
             self._passing.append(LayerPassing(spectra, np.concatenate([c[mine] for c in cosines])))
         self._sizes = np.diff(starts)
 
-    def is_of(self, cosines: tuple[Float64, Float64]) -> bool:
+    def is_of(self, cosines: Sequence[Float64]) -> bool:
         """True where these are the cosines that the rows were made for."""
         return all(np.array_equal(a, b) for a, b in zip(cosines, self._cosines, strict=True))
 
-    def ways(self, rows: Rows, wavelength_nm: Float64) -> tuple[Float64, Float64]:
-        """Return T(i) and T(o), (r, k) each, of those numbered `rows` at `wavelength_nm` (k,)."""
-        ways = np.zeros((2, len(rows), wavelength_nm.shape[-1]))
+    def ways(self, rows: Rows, wavelength_nm: Float64) -> Float64:
+        """Return T (cosines, r, k) of those numbered `rows` at `wavelength_nm` (k,)."""
+        ways = np.zeros((len(self._cosines), len(rows), wavelength_nm.shape[-1]))
         which = self._which[rows]
         for number in np.unique(which):
             mine = np.flatnonzero(which == number)
             places = self._place[rows[mine]]
-            for way, first in zip(ways, (0, int(self._sizes[number])), strict=True):
+            for turn, way in enumerate(ways):
+                first = turn * int(self._sizes[number])
                 way[mine] = self._passing[number].transmissivity(places + first, wavelength_nm)
-        return ways[0], ways[1]
+        return ways
 
 
 def _column(values: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:

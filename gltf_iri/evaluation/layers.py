@@ -25,7 +25,14 @@ from gltf_iri.optics.layer_stack import Sight, coating_transmittance, sight_of
 from gltf_iri.optics.rough_bragg import facet_weight
 
 __all__ = ["ALPHA_MAX", "LAYERS_MAX", "BraggLayer", "LayerBase", "LayerColours", "LayerStack", "Pose"]
-__all__ += ["LayeredSurface", "brdf", "coating_reflectance", "evaluate_layered", "layer_terms"]
+__all__ += [
+    "LayeredSurface",
+    "MirroredColours",
+    "brdf",
+    "coating_reflectance",
+    "evaluate_layered",
+    "layer_terms",
+]
 
 Float64 = NDArray[np.float64]
 
@@ -196,8 +203,8 @@ class LayeredSurface:
             raise UsageError("The layers, their base, light and viewer do not broadcast.") from None
 
 
-class LayerColours(Protocol):
-    """What a method computes of one stack: colours, white 1; cosines are those in the host, and broadcast."""
+class MirroredColours(Protocol):
+    """What a BRDF asks of a method: colours, white 1; cosines are those in the host, and broadcast."""
 
     def reflected(self, layer: int, cos_h: Float64, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (..., 3), the colour of R_layer(h) Π_{k<layer} T_k(i) T_k(o)."""
@@ -208,7 +215,15 @@ class LayerColours(Protocol):
         ...
 
 
-def layer_terms(stack: LayerStack, sight: Sight, colours: LayerColours) -> list[Float64]:
+class LayerColours(MirroredColours, Protocol):
+    """All that a method computes of one stack: for surfaces that let light through, of one crossing too."""
+
+    def entering(self, cos_i: Float64) -> Float64:
+        """Return (..., 3), the colour of Π_k T_k(i) over all layers: of light that crosses them once."""
+        ...
+
+
+def layer_terms(stack: LayerStack, sight: Sight, colours: MirroredColours) -> list[Float64]:
     """Return each layer's BRDF (..., 3), outermost first, and the base's at the end, below the coating."""
     terms = []
     for number, layer in enumerate(stack.layers):
@@ -235,7 +250,7 @@ def _lobe(sight: Sight, alpha: Float64) -> Float64:
     return np.asarray(np.where(is_rough, weight, 0.0))
 
 
-def brdf(stack: LayerStack, pose: Pose, colours: LayerColours) -> Float64:
+def brdf(stack: LayerStack, pose: Pose, colours: MirroredColours) -> Float64:
     """Return f_r (..., 3), 1/sr, without the coating's mirror image of a light (`coating_reflectance`).
 
     Fourneau et al. 2024, Eq. 34; below a coating 1/n_h² is what bending leaves of a radiance, T(i) T(o) what

@@ -65,14 +65,18 @@ class LayersBands:
         """Return (..., 3), the colour of Π_k T_k(i) T_k(o) over all layers; 1 where there is none."""
         return self._coloured(self._through(len(self._stack.layers), cos_i, cos_o))
 
+    def entering(self, cos_i: Float64) -> Float64:
+        """Return (..., 3), the colour of Π_k T_k(i) over all layers: of light that crosses them once."""
+        return self._coloured(self._through(len(self._stack.layers), cos_i))
+
     def _coloured(self, means: Float64) -> Float64:
         return np.asarray(means @ self._bands.weights)
 
-    def _through(self, above: int, cos_i: Float64, cos_o: Float64) -> Float64:
-        shape = np.broadcast_shapes(np.shape(cos_i), np.shape(cos_o))
+    def _through(self, above: int, *cosines: Float64) -> Float64:
+        shape = np.broadcast_shapes(*map(np.shape, cosines))
         product = np.ones((*shape, len(self._bands.weights)))
         for number in range(above):
-            for cosine in (cos_i, cos_o):
+            for cosine in cosines:
                 product = product * self._means(number, cosine, is_passed=True)
         return product
 

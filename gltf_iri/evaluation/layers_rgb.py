@@ -58,10 +58,14 @@ class LayersRgb:
         """Return (..., 3), the colours of all T_k(i) and T_k(o) multiplied; 1 where there is none."""
         return self._through(len(self._stack.layers), cos_i, cos_o)
 
-    def _through(self, above: int, cos_i: Float64, cos_o: Float64) -> Float64:
-        colour = np.ones((*np.broadcast_shapes(np.shape(cos_i), np.shape(cos_o)), 3))
+    def entering(self, cos_i: Float64) -> Float64:
+        """Return (..., 3), the colours of all T_k(i) multiplied: of light that crosses the layers once."""
+        return self._through(len(self._stack.layers), cos_i)
+
+    def _through(self, above: int, *cosines: Float64) -> Float64:
+        colour = np.ones((*np.broadcast_shapes(*map(np.shape, cosines)), 3))
         for layer in self._stack.layers[:above]:
-            for cosine in (cos_i, cos_o):
+            for cosine in cosines:
                 colour = colour * self._passed(layer, cosine)
         return colour
 

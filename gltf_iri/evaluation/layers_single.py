@@ -20,6 +20,7 @@ Fifty cells' resonances are narrower than the rule's steps where facets are too 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
@@ -45,7 +46,7 @@ class LayersSingle:
 
     def __init__(self, stack: LayerStack, white: White) -> None:
         self._stack, self._white = stack, white
-        self._passing: dict[int, PassingRows] = {}
+        self._passing: dict[tuple[int, int], PassingRows] = {}
 
     def reflected(self, layer: int, cos_h: Float64, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (..., 3), the colour of R_layer(h) Π_{k<layer} T_k(i) T_k(o)."""
@@ -53,15 +54,10 @@ class LayersSingle:
         cosines = (cos_h, cos_i, cos_o) if layer > 0 else (cos_h,)
         shape, rows = self._rows(layer + 1, cosines)
         facets = FacetRows(self._stack.layers[layer], self._stack.host_ior, shape, rows[0])
-        passing = [self._passing_rows(k, shape, rows[1], rows[2]) for k in range(layer)]
+        passing = self._passing_rows(layer, shape, rows[1:])
 
         def spectrum(numbers: Rows, wavelength_nm: Float64) -> Float64:
-            product = facets.reflectance(numbers, wavelength_nm)
-            for each in passing:
-                way_in, way_out = each.ways(numbers, wavelength_nm)
-                product *= way_in
-                product *= way_out
-            return product
+            return _attenuated(facets.reflectance(numbers, wavelength_nm), passing, numbers, wavelength_nm)
 
         rgb = integrate_colour(
             spectrum,
@@ -74,33 +70,21 @@ class LayersSingle:
 
     def passed(self, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (..., 3), the colour of Π_k T_k(i) T_k(o) over all layers; 1 where there is none."""
-        count = len(self._stack.layers)
-        shape, rows = self._rows(count, (cos_i, cos_o))
-        passing = [self._passing_rows(k, shape, rows[0], rows[1]) for k in range(count)]
-
-        def spectrum(numbers: Rows, wavelength_nm: Float64) -> Float64:
-            product = np.ones((len(numbers), wavelength_nm.shape[-1]))
-            for each in passing:
-                way_in, way_out = each.ways(numbers, wavelength_nm)
-                product *= way_in
-                product *= way_out
-            return product
-
-        return integrate_colour(spectrum, len(rows[0]), white=self._white, max_degree=_MAX_DEGREE).reshape(
-            *shape, 3
-        )
+        return self._crossing((cos_i, cos_o))
 
     def entering(self, cos_i: Float64) -> Float64:
-        """Return (..., 3), the colour of Π_k T_k(i) over all layers: of what goes in for good."""
+        """Return (..., 3), the colour of Π_k T_k(i) over all layers: of light that crosses them once."""
+        return self._crossing((cos_i,))
+
+    def _crossing(self, cosines: tuple[Float64, ...]) -> Float64:
+        """Return (..., 3), the colour of Π_k T_k over all layers, once for each of `cosines`."""
         count = len(self._stack.layers)
-        shape, rows = self._rows(count, (cos_i,))
-        passing = [self._passing_rows(k, shape, rows[0], rows[0]) for k in range(count)]
+        shape, rows = self._rows(count, cosines)
+        passing = self._passing_rows(count, shape, rows)
 
         def spectrum(numbers: Rows, wavelength_nm: Float64) -> Float64:
-            product = np.ones((len(numbers), wavelength_nm.shape[-1]))
-            for each in passing:
-                product *= each.ways(numbers, wavelength_nm)[0]
-            return product
+            unlost = np.ones((len(numbers), wavelength_nm.shape[-1]))
+            return _attenuated(unlost, passing, numbers, wavelength_nm)
 
         return integrate_colour(spectrum, len(rows[0]), white=self._white, max_degree=_MAX_DEGREE).reshape(
             *shape, 3
@@ -114,13 +98,29 @@ class LayersSingle:
         )
         return shape, [np.broadcast_to(np.asarray(c, np.float64), shape).reshape(-1) for c in cosines]
 
-    def _passing_rows(self, layer: int, shape: tuple[int, ...], i: Float64, o: Float64) -> PassingRows:
-        """Return the layer's rows, those of the last call where they are the same: T takes long to sample."""
-        known = self._passing.get(layer)
-        if known is None or not known.is_of((i, o)):
-            known = PassingRows(self._stack.layers[layer], self._stack.host_ior, shape, (i, o))
-            self._passing[layer] = known
-        return known
+    def _passing_rows(
+        self, count: int, shape: tuple[int, ...], cosines: Sequence[Float64]
+    ) -> list[PassingRows]:
+        """Return the first `count` layers' rows; the last call's where they are the same: T takes long."""
+        rows = []
+        for layer in range(count):
+            known = self._passing.get((layer, len(cosines)))
+            if known is None or not known.is_of(cosines):
+                known = PassingRows(self._stack.layers[layer], self._stack.host_ior, shape, cosines)
+                self._passing[layer, len(cosines)] = known
+            rows.append(known)
+        return rows
+
+
+def _attenuated(
+    spectra: Float64, passing: list[PassingRows], numbers: Rows, wavelength_nm: Float64
+) -> Float64:
+    """Return `spectra` (r, k) of the rows `numbers` times what `passing` lets through, once a cosine."""
+    product = spectra
+    for each in passing:
+        for way in each.ways(numbers, wavelength_nm):
+            product = product * way
+    return product
 
 
 def evaluate_layers_single(surface: LayeredSurface, white: White) -> Evaluation:

@@ -28,6 +28,8 @@ _NODES: Final = 512
 _WAVELENGTHS: Final = 128
 _VALUES_AT_ONCE: Final = 1 << 18
 
+_Factor = tuple[Float64, Float64]  # a table and the cosines that it is read at
+
 
 class LayersSingleTable:
     """`LayerColours` of one stack; tables are made when they are first asked for.
@@ -49,13 +51,22 @@ class LayersSingleTable:
 
     def reflected(self, layer: int, cos_h: Float64, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (..., 3), the colour of R_layer(h) Π_{k<layer} T_k(i) T_k(o)."""
-        pairs = [table for table in self._passing[:layer] for _ in range(2)]
-        return self._colour([self._reflecting[layer], *pairs], [cos_h, *(cos_i, cos_o) * layer])
+        return self._colour([(self._reflecting[layer], cos_h), *self._through(layer, cos_i, cos_o)])
 
     def passed(self, cos_i: Float64, cos_o: Float64) -> Float64:
         """Return (..., 3), the colour of Π_k T_k(i) T_k(o) over all layers; 1 where there is none."""
-        pairs = [table for table in self._passing for _ in range(2)]
-        return self._colour(pairs, [cos_i, cos_o] * len(self._layers) or [cos_i * cos_o])
+        return self._colour(self._through(len(self._layers), cos_i, cos_o))
+
+    def entering(self, cos_i: Float64) -> Float64:
+        """Return (..., 3), the colour of Π_k T_k(i) over all layers: of light that crosses them once."""
+        return self._colour(self._through(len(self._layers), cos_i))
+
+    def _through(self, above: int, *cosines: Float64) -> list[_Factor]:
+        """Return what the first `above` layers let through at each of `cosines`."""
+        if above == 0:  # nothing is lost, in the cosines' shape
+            unlost = np.ones((2, len(self._rule.weights)))
+            return [(unlost, cosine) for cosine in cosines]
+        return [(table, cosine) for table in self._passing[:above] for cosine in cosines]
 
     @cached_property
     def _reflecting(self) -> list[Float64]:
@@ -67,15 +78,18 @@ class LayersSingleTable:
         wavelength_nm = self._rule.wavelength_nm
         return [each.transmissivity(self._cosines, wavelength_nm) for each in self._layers]
 
-    def _colour(self, tables: list[Float64], cosines: list[Float64]) -> Float64:
-        shape = np.broadcast_shapes(*(np.shape(c) for c in cosines))
-        columns = [np.broadcast_to(np.asarray(c, np.float64), shape).reshape(-1) for c in cosines]
-        rgb = np.ones((len(columns[0]), 3))
+    def _colour(self, factors: list[_Factor]) -> Float64:
+        shape = np.broadcast_shapes(*(np.shape(cosine) for _, cosine in factors))
+        rows = [
+            (table, np.broadcast_to(np.asarray(cosine, np.float64), shape).reshape(-1))
+            for table, cosine in factors
+        ]
+        rgb = np.zeros((len(rows[0][1]), 3))
         step = max(1, _VALUES_AT_ONCE // len(self._rule.wavelength_nm))
-        for start in range(0, len(rgb) if tables else 0, step):
+        for start in range(0, len(rgb), step):
             part = slice(start, start + step)
             product = np.ones(())
-            for table, column in zip(tables, columns, strict=True):
+            for table, column in rows:
                 product = product * _between(table, column[part])
             rgb[part] = product @ self._rule.weights
         return rgb.reshape(*shape, 3)

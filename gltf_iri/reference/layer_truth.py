@@ -140,6 +140,11 @@ class _AtPoints:
         share, i, o = np.broadcast_arrays(self.share, cos_i, cos_o)
         return self.of.colour(share, self.of.passing(None, i, o))
 
+    def entering(self, cos_i: Float64) -> Float64:
+        """Return (..., 3), the colour of Π_k T_k(i) over all layers: of light that crosses them once."""
+        share, i = np.broadcast_arrays(self.share, cos_i)
+        return self.of.colour(share, self.of.passing(None, i))
+
     def image(self, n_dot_v: Float64, metal_roughness: Float64) -> ImageColours:
         """Return what image light becomes, as `LayerLookup.image` does of its tables."""
         return self.of.image(*np.broadcast_arrays(self.share, n_dot_v, metal_roughness))

@@ -41,6 +41,10 @@ class DirectLayers:
         """Return (..., 3), the colour of Π_k T_k(i) T_k(o) over all layers."""
         return self.colours.passed(cos_i, cos_o)
 
+    def entering(self, cos_i: Float64) -> Float64:
+        """Return (..., 3), the colour of Π_k T_k(i) over all layers: of light that crosses them once."""
+        return self.colours.entering(cos_i)
+
     def image(self, n_dot_v: Float64, metal_roughness: Float64) -> ImageColours:
         """Return what image light becomes, seen at the cosine `n_dot_v` in the host; roughness perceptual."""
         host = self.plan.host_ior
