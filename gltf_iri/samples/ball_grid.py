@@ -1,0 +1,33 @@
+"""Balls in rows and columns, one material each: what a series of materials is shown on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import tan
+from typing import Final
+
+from gltf_iri.samples.builder import GLTFBuilder
+from gltf_iri.samples.sphere import sphere
+
+__all__ = ["RADIUS_M", "add_ball_grid"]
+
+RADIUS_M: Final = 0.02
+_PITCH_M: Final = 0.046
+_MARGIN_M: Final = 0.008
+_YFOV_RAD: Final = 0.2  # far away, so that balls at the side are seen as those in the middle
+_ASPECT: Final = 4.0 / 3.0
+
+
+def add_ball_grid(builder: GLTFBuilder, rows: Sequence[Sequence[tuple[str, int]]]) -> None:
+    """Add balls of `rows` of (name, material), from the top left, a camera that sees all, and a light."""
+    ball = sphere(RADIUS_M, rings=32, segments=64)
+    columns = max(len(row) for row in rows)
+    for line, row in enumerate(rows):
+        for column, (name, material) in enumerate(row):
+            x = (column - (columns - 1) / 2.0) * _PITCH_M
+            y = ((len(rows) - 1) / 2.0 - line) * _PITCH_M
+            builder.mesh(name, ball, material, translation_m=(x, y, 0.0))
+    width_m, height_m = (count * _PITCH_M + 2.0 * _MARGIN_M for count in (columns, len(rows)))
+    distance_m = max(height_m, width_m / _ASPECT) / 2.0 / tan(_YFOV_RAD / 2.0)
+    builder.perspective_camera((0.0, 0.0, distance_m), (0.0, 0.0, 0.0), _YFOV_RAD)
+    builder.directional_light((-0.3, -0.8, -0.6), 1.0)
