@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Final
 from gltf_iri.material.bragg import BRAGG_CELLS_MAX, BRAGG_LAYERS_MAX, Bragg, MirrorLayer
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
-from gltf_iri.material.transmission import Transmission
 from gltf_iri.planning.core import metal_verdict
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.reach import Span
@@ -69,12 +68,12 @@ def verdicts_below(material: Material, judged: Mapping[Effect, Verdict]) -> Iter
                 yield effect, Skip("Bragg layers stand everywhere in place of the surface that it belongs to")
 
 
-def layer_reflects(layer: MirrorLayer, host_ior: float) -> bool:
+def layer_reflects(layer: MirrorLayer, bragg: Bragg) -> bool:
     """True where `layer` is to be seen in its host: an index differs, in a thickness above 0 if it is n2."""
-    ior_1 = layer.first_ior(host_ior)
-    if ior_1 != host_ior:
+    ior_1 = layer.first_ior(bragg.host_ior)
+    if ior_1 != bragg.host_ior:
         return True
-    has_films = layer.fill < 1.0 and max(layer.period_min_nm, layer.period_max_nm) > 0.0
+    has_films = layer.fill < 1.0 and max(_periods_nm(layer, bragg)) > 0.0
     return has_films and layer.ior_2 != ior_1
 
 
@@ -87,13 +86,20 @@ def period_texel(material: Material, document: Document | None) -> Span:
     return texel
 
 
+def _periods_nm(layer: MirrorLayer, bragg: Bragg) -> tuple[float, ...]:
+    """Return the ends that the period of `layer` runs between; without a texture the maximum holds."""
+    if bragg.period_texture is None:
+        return (layer.period_max_nm,)
+    return layer.period_min_nm, layer.period_max_nm
+
+
 def _idle(bragg: Bragg) -> Skip | None:
     if bragg.factor == 0.0:
         texture = ", and its texture can only multiply it" if bragg.texture else ""
         return Skip(f"the factor is 0{texture}")
     if not bragg.layers:
         return Skip("the list of layers is empty")
-    if not any(layer_reflects(layer, bragg.host_ior) for layer in bragg.layers):
+    if not any(layer_reflects(layer, bragg) for layer in bragg.layers):
         return Skip("no layer reflects: their films have the host's index or no thickness")
     return None
 
@@ -101,15 +107,18 @@ def _idle(bragg: Bragg) -> Skip | None:
 def _missing(material: Material, bragg: Bragg, folded: Mapping[Effect, str]) -> NotDrawn | None:
     if material.iridescence is not None:
         return NotDrawn(f"{Iridescence.EXTENSION} on the same material excludes it")
-    if dict(transmission_verdicts(material, folded))[Effect.TRANSMISSION] is None:
-        return NotDrawn(f"it is not drawn together with {Transmission.EXTENSION}")
     if told := _beyond(bragg):
         return NotDrawn(f"{told} that are simulated")
     *above, last = (layer.first_ior(bragg.host_ior) != bragg.host_ior for layer in bragg.layers)
     if any(above):
         return NotDrawn("a first index that is not the host's bends light: only the last layer may have one")
-    if last and metal_verdict(material, folded) is None:
-        return NotDrawn("the last layer's first index is not the host's, and through it no metal is drawn")
+    if not last:
+        return None
+    bends = "the last layer's first index is not the host's, and through it"
+    if metal_verdict(material, folded) is None:
+        return NotDrawn(f"{bends} no metal is drawn")
+    if dict(transmission_verdicts(material, folded))[Effect.TRANSMISSION] is None:
+        return NotDrawn(f"{bends} no light from behind is drawn")
     return None
 
 
@@ -120,7 +129,7 @@ def _beyond(bragg: Bragg) -> str:
     cells = max(layer.cells for layer in bragg.layers)
     if cells > BRAGG_CELLS_MAX:
         return f"{cells} cells are more than the {BRAGG_CELLS_MAX}"
-    periods = [nm for layer in bragg.layers for nm in (layer.period_min_nm, layer.period_max_nm)]
+    periods = [nm for layer in bragg.layers for nm in _periods_nm(layer, bragg)]
     if max(periods) > _PERIOD_MAX_NM:
         return f"a period of {max(periods):g} nm is beyond the {_PERIOD_MAX_NM:g} nm"
     of_films = [n for layer in bragg.layers for n in (layer.first_ior(1.0), layer.ior_2)]

@@ -85,7 +85,7 @@ def plan_layers(
     under: Under = "nothing" if _is_black(material) else "base"
     layers, simpler = _kept(bragg, texel)
     if under == "nothing":
-        told = "the base is black: nothing that passes the last layer comes back"
+        told = "the base is black: no light comes from below the last layer"
         simpler.append(f"{told}, and a single layer's colour is all" if len(layers) == 1 else told)
     return LayersPlan(
         layers=tuple(layers),
@@ -109,29 +109,24 @@ def _kept(bragg: Bragg, texel: Span) -> tuple[list[PlannedLayer], list[str]]:
 
     layers, simpler = [], []
     for i, layer in enumerate(bragg.layers):
-        if not layer_reflects(layer, bragg.host_ior):
+        if not layer_reflects(layer, bragg):
             simpler.append(f"layer {i} is left out: {_NO_CONTRAST}")
             continue
         if layer.roughness**2 <= ALPHA_MIN:
             simpler.append(f"layer {i} is smooth: its facets are met at the light's own angle, unfiltered")
         low, high = (_period(layer, t) for t in (texel.low, texel.high))
-        ior_1 = layer.first_ior(bragg.host_ior)
+        ior_1, cells, alike = layer.first_ior(bragg.host_ior), layer.cells, _ONE_CELL
+        if layer.fill == 0.0 and cells > 1:
+            low, high, cells, alike = low * cells, high * cells, 1, f"{cells} cells without a first film"
         # d2 does not decide whether the layer is a film.
-        if film_in_mirror(ior_1, layer.ior_2, 0.0, layer.cells, bragg.host_ior) is not None:
+        if film_in_mirror(ior_1, layer.ior_2, 0.0, cells, bragg.host_ior) is not None:
             thinnest, thickest = sorted((1.0 - layer.fill) * nm for nm in (low, high))
             nm = f"{thickest:.4g}" if thinnest == thickest else f"{thinnest:.4g} to {thickest:.4g}"
-            simpler.append(f"layer {i} is a film: {_ONE_CELL} is {nm} nm of n2 = {layer.ior_2:g}")
-        layers.append(
-            PlannedLayer(
-                i,
-                ior_1,
-                layer.ior_2,
-                (low, high),
-                layer.fill,
-                layer.cells,
-                max(layer.roughness**2, ALPHA_MIN),
-            )
-        )
+            simpler.append(f"layer {i} is a film: {alike} is {nm} nm of n2 = {layer.ior_2:g}")
+        elif cells < layer.cells:
+            simpler.append(f"layer {i} has one cell: {alike} are one slab of n2 = {layer.ior_2:g}")
+        alpha = max(layer.roughness**2, ALPHA_MIN)
+        layers.append(PlannedLayer(i, ior_1, layer.ior_2, (low, high), layer.fill, cells, alpha))
     return layers, simpler
 
 

@@ -87,7 +87,7 @@ def permutation(
     Some have a value, "NAME value"; the others are switches.
 
     Effects that cannot be seen together are dropped: lights on unlit materials, tangents that
-    nothing is laid out along, occlusion without image light, layers without any light.
+    nothing is laid out along, occlusion without image light, layers without any light, also from behind.
     """
     seen = {*plan.effects, *primitive, *scene}
     if Effect.UNLIT in seen:
@@ -99,7 +99,7 @@ def permutation(
     defines = [effect.define for effect in Effect if effect in seen]
     if plan.method is not None:
         defines += _film_defines(plan, plan.method, seen)
-    if not seen.isdisjoint(_LIGHTS):
+    if not seen.isdisjoint((*_LIGHTS, Effect.TRANSMISSION)):
         defines += layer_defines(plan)
     if plan.layering == "specular" and Effect.DIELECTRIC in seen:
         defines.append(LAYERING_SPECULAR)

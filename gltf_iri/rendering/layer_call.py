@@ -47,7 +47,8 @@ def layer_twin_call(
 ) -> TimedCall:
     """Return the call of the GLSL twin of a method for layers on each row of `stack` and `sight` (n,).
 
-    wanted : layers by their numbers, whose reflections are summed; their count for what passes all.
+    wanted : layers by their numbers, whose reflections are summed; their count for what passes all both
+        ways, one more for what crosses all once.
     Raises UsageError where the method or a parameter is unknown, and for a method without a twin.
     """
     descriptor = find_method(method, "layers")
@@ -55,11 +56,12 @@ def layer_twin_call(
         raise UsageError(f"The method '{method}' has no GLSL twin.")
     chosen, count = with_defaults(method, parameters), len(stack.layers)
     given = ", ".join(f"vec3 films_{k}, vec3 cells_{k}" for k in range(count))
+    of_all = {
+        count: f"stack_passed(host, stack, {count}, at.y, at.z)",
+        count + 1: f"stack_entering(host, stack, {count}, at.z)",
+    }
     calls = [
-        f"stack_passed(host, stack, {count}, at.y, at.z)"
-        if number == count
-        else f"stack_reflected(host, stack, {number}, at.x, at.y, at.z)"
-        for number in wanted
+        of_all.get(number, f"stack_reflected(host, stack, {number}, at.x, at.y, at.z)") for number in wanted
     ]
     tables = {name: optics_table(name, white, chosen) for name in descriptor.glsl_tables}
     defines: tuple[str, ...] = ()
@@ -103,12 +105,9 @@ def layer_table_call(
     plan = MaterialPlan(0, "", (Effect.BRAGG,), None, "", "core", layers=baked.plan)
     store = LayerTableStore(context, {0: baked}, baked.white)
     count = len(baked.plan.layers)
-    calls = [
-        "layers_passed(s, at.y, at.z)"
-        if number == count
-        else f"layer_reflected(s, {number}, at.x, at.y, at.z)"
-        for number in wanted
-    ]
+    of_all = {count: "layers_passed(s, at.y, at.z)", count + 1: "layers_entering(s, at.z)"}
+    calls = [of_all.get(number, f"layer_reflected(s, {number}, at.x, at.y, at.z)") for number in wanted]
+    through = (Effect.TRANSMISSION.define,) if count + 1 in wanted else ()
     return TimedCall(
         "a table of layers",
         (
@@ -125,5 +124,5 @@ def layer_table_call(
         (np.stack([sight.cos_h, sight.cos_i, sight.cos_o], axis=-1),),
         textures=store.textures(plan),
         uniforms=store.uniforms(plan),
-        defines=(Effect.BRAGG.define, *layer_defines(plan)),
+        defines=(Effect.BRAGG.define, *through, *layer_defines(plan)),
     )

@@ -34,7 +34,12 @@ def loop_turns(plan: MaterialPlan, lights: int, *, has_image_light: bool) -> int
     behind = sum(2 * above * factor + 7 * _QUADS for above in range(1, count))
     passed = 2 * count * factor + 4 * _QUADS if layers.under == "base" else 0
     turns = (lights + has_image_light) * (first + behind + passed)
-    return turns + passed if has_image_light and plan.calls_for(Effect.METAL) else turns
+    if has_image_light and plan.calls_for(Effect.METAL):
+        turns += passed
+    if plan.calls_for(Effect.TRANSMISSION):
+        # What comes from behind, and of a thin wall any of the lights may.
+        turns += passed // 2 * (1 if plan.calls_for(Effect.VOLUME) else 1 + lights)
+    return turns
 
 
 def check_loops(plan: MaterialPlan, renderer: str, lights: int, *, has_image_light: bool) -> None:

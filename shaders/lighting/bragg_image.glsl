@@ -1,10 +1,14 @@
-// Light of the environment on Bragg layers: the split sum, a lobe for each layer. Each layer sends prefiltered radiance
-// of its own roughness, times what it sends of a white sky.
+// Light of the environment on Bragg layers, and from behind: the split sum, a lobe for each layer. Each layer sends
+// prefiltered radiance of its own roughness, times what it sends of a white sky.
 
-#include "lighting/environment.glsl"
 #include "lighting/layer_colours.glsl"
-#include "lighting/layer_light.glsl"
 #include "optics/layer_stack.glsl"
+#if defined(BRAGG_BASE) && defined(HAS_DIELECTRIC)
+#include "lighting/bragg_through.glsl"
+#endif
+#ifdef HAS_IMAGE_LIGHT
+#include "lighting/environment.glsl"
+#include "lighting/layer_light.glsl"
 
 // Seen through the coating facets seem to lean more: their slopes are n cosθ'/cosθ times as steep, with θ' inside.
 float seen_roughness(float alpha, View w) {
@@ -36,9 +40,14 @@ LayerLight light_of_layers(Surface s, View w, vec3 mirrored, vec3 base_radiance,
 #endif
     return light;
 }
+#endif
 
 vec3 image_on_layers(Surface s, View w, ImageLight image) {
     vec3 sent = vec3(0.0);
+#if defined(BRAGG_BASE) && defined(HAS_TRANSMISSION)
+    sent += passed_from_behind(s, w) * image.transmitted;
+#endif
+#ifdef HAS_IMAGE_LIGHT
     for (int i = 0; i < BRAGG_LAYERS; ++i) {
         sent += layer_albedo(s, w, i) * image.layers.radiance[i];
     }
@@ -46,12 +55,15 @@ vec3 image_on_layers(Surface s, View w, ImageLight image) {
     sent += s.metallic * metal_albedo(s, w) * image.layers.metal_radiance;
 #endif
 #if defined(BRAGG_BASE) && defined(HAS_DIELECTRIC)
-    sent += (1.0 - s.metallic) * s.base_color * u_bragg_bent * scattered_albedo(s, w) * image.irradiance;
+    sent += scattered_by_base(s) * scattered_albedo(s, w) * image.irradiance;
+#endif
 #endif
 #ifdef BRAGG_COATING
     float passed = coating_transmittance(u_bragg_host_ior, w.n_dot_v);
-    return passed * sent + (1.0 - passed) * image.layers.coating_radiance;
-#else
-    return sent;
+    sent *= passed;
+#ifdef HAS_IMAGE_LIGHT
+    sent += (1.0 - passed) * image.layers.coating_radiance;
 #endif
+#endif
+    return sent;
 }

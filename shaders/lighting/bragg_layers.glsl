@@ -4,6 +4,9 @@
 // above it unbent.
 
 #include "lighting/layer_colours.glsl"
+#if defined(BRAGG_BASE) && defined(HAS_DIELECTRIC)
+#include "lighting/bragg_through.glsl"
+#endif
 #include "lighting/punctual.glsl"
 #include "lighting/view.glsl"
 #include "material/surface.glsl"
@@ -34,7 +37,7 @@ Sight sight_between(View w, vec3 l, float n_dot_l) {
 vec3 sent_by_base(Surface s, Sight seen) {
     vec3 sent = vec3(0.0);
 #ifdef HAS_DIELECTRIC
-    sent += (1.0 - s.metallic) * s.base_color * (u_bragg_bent / PI);
+    sent += scattered_by_base(s) / PI;
 #endif
 #ifdef HAS_METAL
     float weight = facet_weight(seen.n_cross_h_squared, seen.cos_i, seen.cos_o, s.alpha_roughness);
@@ -73,5 +76,9 @@ vec3 light_on_layers(Surface s, View w, Illuminant light) {
 #endif
         return sent * light.illuminance * n_dot_l;
     }
+#if defined(BRAGG_BASE) && defined(HAS_TRANSMISSION) && !defined(HAS_VOLUME)
+    return light_from_behind(s, w, light);
+#else
     return vec3(0.0);
+#endif
 }

@@ -1,9 +1,11 @@
 // Light of points and suns on the surface, below any coat.
 
-#include "lighting/lobes.glsl"
 #include "lighting/punctual.glsl"
 #include "lighting/view.glsl"
 #include "optics/microfacet.glsl"
+#ifndef BRAGG_WHOLE
+#include "lighting/lobes.glsl"
+#endif
 #ifdef HAS_ANISOTROPY
 #include "lighting/anisotropy.glsl"
 #endif

@@ -7,7 +7,7 @@
 #include "lighting/dfg.glsl"
 #include "lighting/footprint.glsl"
 #endif
-#if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)
+#if (defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)) && !defined(BRAGG_WHOLE)
 #include "lighting/lobes.glsl"
 #endif
 #ifdef HAS_IMAGE_LIGHT
@@ -22,7 +22,7 @@
 #ifdef HAS_SHEEN
 #include "lighting/sheen.glsl"
 #endif
-#if defined(HAS_BRAGG) && defined(HAS_IMAGE_LIGHT)
+#if defined(HAS_BRAGG) && (defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION))
 #include "lighting/bragg_image.glsl"
 #endif
 
@@ -78,19 +78,27 @@ ImageLight image_light(Surface s, View w) {
 }
 
 #if defined(HAS_IMAGE_LIGHT) || defined(HAS_TRANSMISSION)
-vec3 image_lighting(Surface s, View w, ImageLight image) {
+#ifndef BRAGG_WHOLE
+vec3 image_on_base(Surface s, View w, ImageLight image) {
 #ifdef FILM_FACET_MEAN
     float facet_cosine = image.facet_cosine;
 #else
     float facet_cosine = w.n_dot_v;
 #endif
     Lobe lobe = Lobe(w.n_dot_v, facet_cosine, s.perceptual_roughness, image.dfg.x, image.dfg.y);
-#if defined(HAS_TRANSMISSION)
-    vec3 sent = mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance, image.transmitted));
-#elif defined(BRAGG_WHOLE)
+#ifdef HAS_TRANSMISSION
+    return mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance, image.transmitted));
+#else
+    return mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance));
+#endif
+}
+#endif
+
+vec3 image_lighting(Surface s, View w, ImageLight image) {
+#ifdef BRAGG_WHOLE
     vec3 sent = image_on_layers(s, w, image);
 #else
-    vec3 sent = mix_lobes(s, lobe, WhiteLight(image.irradiance, image.radiance));
+    vec3 sent = image_on_base(s, w, image);
 #ifdef HAS_BRAGG
     sent = mix(sent, image_on_layers(s, w, image), s.bragg_factor);
 #endif

@@ -1,5 +1,6 @@
 // The colours of Bragg layers by the method that the plan chose, and what all methods read of the layers.
-// Every method brings `layer_reflected` and `layers_passed`, which gltf_iri/evaluation/layers.py asks of it in Python.
+// Every method brings `layer_reflected`, `layers_passed` and `layers_entering`, which gltf_iri/evaluation/layers.py asks of
+// it in Python.
 
 #include "lighting/view.glsl"
 #include "optics/layer_stack.glsl"

@@ -51,14 +51,18 @@ vec3 colour_of(vec4 bands, int quad) {
 }
 
 #if defined(BRAGG_BASE) || defined(BRAGG_MANY)
-// Π T_k(i) T_k(o) of the first `count` layers.
-vec4 passed_bands(vec2 place_i, vec2 place_o, int count, int quad) {
+// Π T_k of the first `count` layers, crossed once.
+vec4 entering_bands(vec2 place, int count, int quad) {
     vec4 bands = vec4(1.0);
     for (int k = 0; k < count; ++k) {
-        int slice = TRANSMITTED_SLICE + k * BRAGG_QUADS + quad;
-        bands *= table_texel(place_i, slice) * table_texel(place_o, slice);
+        bands *= table_texel(place, TRANSMITTED_SLICE + k * BRAGG_QUADS + quad);
     }
     return bands;
+}
+
+// Π T_k(i) T_k(o) of the first `count` layers.
+vec4 passed_bands(vec2 place_i, vec2 place_o, int count, int quad) {
+    return entering_bands(place_i, count, quad) * entering_bands(place_o, count, quad);
 }
 #endif
 
@@ -89,6 +93,18 @@ vec3 layers_passed(Surface s, float cos_i, float cos_o) {
     }
     return colour;
 }
+
+#ifdef HAS_TRANSMISSION
+// Π T_k(o) over all layers.
+vec3 layers_entering(Surface s, float cos_o) {
+    vec2 place = table_place(s, cos_o);
+    vec3 colour = vec3(0.0);
+    for (int quad = 0; quad < BRAGG_QUADS; ++quad) {
+        colour += colour_of(entering_bands(place, BRAGG_LAYERS, quad), quad);
+    }
+    return colour;
+}
+#endif
 #endif
 
 #ifdef HAS_IMAGE_LIGHT

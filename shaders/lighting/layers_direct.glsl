@@ -37,6 +37,14 @@ vec3 layers_passed(Surface s, float cos_i, float cos_o) {
     stack_of(s, stack);
     return stack_passed(u_bragg_host_ior, stack, BRAGG_LAYERS, cos_i, cos_o);
 }
+
+#ifdef HAS_TRANSMISSION
+vec3 layers_entering(Surface s, float cos_o) {
+    BraggLayer stack[BRAGG_LAYERS_MAX];
+    stack_of(s, stack);
+    return stack_entering(u_bragg_host_ior, stack, BRAGG_LAYERS, cos_o);
+}
+#endif
 #endif
 
 #ifdef HAS_IMAGE_LIGHT

@@ -22,14 +22,14 @@ void band_means(out vec4 means[BAND_QUADS_MAX], vec4 spectrum[LAYER_QUADS_MAX]) 
     }
 }
 
-// Σ_b W_b Π_{k<above} T_k,b(i) T_k,b(o), times R_above,b(h) where `reflects`
+// Σ_b W_b Π_{k<above} T_k,b(i) T_k,b(o), times R_above,b(h) where `reflects`; of one way instead of two without T_k,b(o)
 vec3 path_colour(
-    float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int above, bool reflects, float cos_h, float cos_i,
+    float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int above, bool reflects, int ways, float cos_h, float cos_i,
     float cos_o) {
     int rows = band_quads();
     vec4 means[BAND_QUADS_MAX];
     for (int row = 0; row < rows; ++row) means[row] = vec4(1.0);
-    for (int factor = reflects ? 0 : 1; factor <= 2 * above; ++factor) {
+    for (int factor = reflects ? 0 : 1; factor <= 2 * above; factor += 3 - ways) {
         vec4 spectrum[LAYER_QUADS_MAX];
         path_factor(spectrum, factor, host_ior, layers, above, cos_h, cos_i, cos_o);
         vec4 each[BAND_QUADS_MAX];
@@ -54,10 +54,15 @@ vec3 stack_reflected(
     if (layer == 0) {
         return mirror_colour_yeh_spectral(host_ior, met.n1, met.n2, met.d1_nm, met.d2_nm, met.cells, cos_h);
     }
-    return path_colour(host_ior, layers, layer, true, cos_h, cos_i, cos_o);
+    return path_colour(host_ior, layers, layer, true, 2, cos_h, cos_i, cos_o);
 }
 
 // The colour of Π_k T_k(i) T_k(o) over the first `count` layers
 vec3 stack_passed(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i, float cos_o) {
-    return path_colour(host_ior, layers, count, false, 1.0, cos_i, cos_o);
+    return path_colour(host_ior, layers, count, false, 2, 1.0, cos_i, cos_o);
+}
+
+// The colour of Π_k T_k(i) over the first `count` layers: of light that crosses them once
+vec3 stack_entering(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i) {
+    return path_colour(host_ior, layers, count, false, 1, 1.0, cos_i, cos_i);
 }

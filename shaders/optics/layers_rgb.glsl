@@ -39,13 +39,18 @@ vec3 layer_passed_colour(float host_ior, BraggLayer layer, float cos_theta) {
     return passed;
 }
 
-// Π_k T_k(i) T_k(o) over the first `count` layers, as colours
-vec3 stack_passed(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i, float cos_o) {
+// Π_k T_k(i) over the first `count` layers, as colours: of light that crosses them once
+vec3 stack_entering(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i) {
     vec3 colour = vec3(1.0);
     for (int k = 0; k < count; ++k) {
-        colour *= layer_passed_colour(host_ior, layers[k], cos_i) * layer_passed_colour(host_ior, layers[k], cos_o);
+        colour *= layer_passed_colour(host_ior, layers[k], cos_i);
     }
     return colour;
+}
+
+// Π_k T_k(i) T_k(o) over the first `count` layers, as colours
+vec3 stack_passed(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i, float cos_o) {
+    return stack_entering(host_ior, layers, count, cos_i) * stack_entering(host_ior, layers, count, cos_o);
 }
 
 // R_layer(h) Π_{k<layer} T_k(i) T_k(o), as colours; cosines in the host

@@ -6,12 +6,12 @@
 
 #include "optics/layer_waves.glsl"
 
-// Π_{k<above} T_k(i) T_k(o)
+// Π_{k<above} T_k(i) T_k(o); of one way instead of two Π_{k<above} T_k(i)
 void passed_spectrum(out vec4 spectrum[LAYER_QUADS_MAX], float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX],
-                     int above, float cos_i, float cos_o) {
+                     int above, int ways, float cos_i, float cos_o) {
     int quads = layer_quads();
     for (int quad = 0; quad < quads; ++quad) spectrum[quad] = vec4(1.0);
-    for (int factor = 1; factor <= 2 * above; ++factor) {
+    for (int factor = 1; factor <= 2 * above; factor += 3 - ways) {
         vec4 each[LAYER_QUADS_MAX];
         path_factor(each, factor, host_ior, layers, above, 1.0, cos_i, cos_o);
         for (int quad = 0; quad < quads; ++quad) spectrum[quad] *= each[quad];
@@ -23,7 +23,7 @@ void passed_spectrum(out vec4 spectrum[LAYER_QUADS_MAX], float host_ior, BraggLa
 vec3 stack_reflected(
     float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int layer, float cos_h, float cos_i, float cos_o) {
     vec4 passed[LAYER_QUADS_MAX];
-    passed_spectrum(passed, host_ior, layers, layer, cos_i, cos_o);
+    passed_spectrum(passed, host_ior, layers, layer, 2, cos_i, cos_o);
     BraggMirror mirror = facet_mirror(host_ior, layers[layer], cos_h);
     vec3 colour = vec3(0.0);
     int count = spectral_count();
@@ -36,12 +36,21 @@ vec3 stack_reflected(
     return colour;
 }
 
-// The colour of Π_k T_k(i) T_k(o) over the first `count` layers
-vec3 stack_passed(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i, float cos_o) {
+vec3 passed_colour(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, int ways, float cos_i, float cos_o) {
     vec4 passed[LAYER_QUADS_MAX];
-    passed_spectrum(passed, host_ior, layers, count, cos_i, cos_o);
+    passed_spectrum(passed, host_ior, layers, count, ways, cos_i, cos_o);
     vec3 colour = vec3(0.0);
     int wavelengths = coarse_count();
     for (int i = 0; i < wavelengths; ++i) colour += passed[i / 4][i & 3] * coarse_weight(i);
     return colour;
+}
+
+// The colour of Π_k T_k(i) T_k(o) over the first `count` layers
+vec3 stack_passed(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i, float cos_o) {
+    return passed_colour(host_ior, layers, count, 2, cos_i, cos_o);
+}
+
+// The colour of Π_k T_k(i) over the first `count` layers: of light that crosses them once
+vec3 stack_entering(float host_ior, BraggLayer layers[BRAGG_LAYERS_MAX], int count, float cos_i) {
+    return passed_colour(host_ior, layers, count, 1, cos_i, cos_i);
 }

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import pytest
 
 from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.mirror import Mirror
+from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.material.bragg import Bragg, MirrorLayer
 from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.material.texture import TextureInfo
+from gltf_iri.material.transmission import Transmission
 from gltf_iri.optics.microfacet import ALPHA_MIN
 from gltf_iri.planning.decide import plan_material
 from gltf_iri.planning.layer_plan import LayersPlan
@@ -51,6 +55,25 @@ def test_one_cell_in_a_host_of_its_own_is_a_film() -> None:
     assert planned(MirrorLayer(ior_1=1.4, roughness=0.4)).simpler == ()
 
 
+def test_cells_without_a_first_film_are_one_slab_of_the_second() -> None:
+    cells = MirrorLayer(ior_2=1.5, period_min_nm=60.0, period_max_nm=80.0, fill=0.0, cells=5, roughness=0.4)
+    plan = planned(cells, period_texture=TextureInfo(0))
+    assert (plan.layers[0].cells, plan.layers[0].period_nm) == (1, (300.0, 400.0))
+    assert any("layer 0 is a film: 5 cells" in told and "300 to 400 nm" in told for told in plan.simpler)
+    bending = planned(replace(cells, ior_1=1.4))
+    assert bending.layers[0].cells == 1 and any("one slab" in told for told in bending.simpler)
+
+
+def test_a_slab_of_cells_reflects_as_the_cells_do() -> None:
+    layer = MirrorLayer(ior_2=1.5, period_max_nm=80.0, fill=0.0, cells=5)
+    (slab,) = planned(layer).layers
+    one, many = (
+        Mirror.of([1.0, 0.6, 0.1], slab.n1, 1.5, 0.0, nm, cells)
+        for nm, cells in ((slab.period_nm[0], slab.cells), (80.0, 5))
+    )
+    assert evaluate("yeh-spectral", one).rgb == pytest.approx(evaluate("yeh-spectral", many).rgb, abs=1e-12)
+
+
 def test_a_smooth_layer_has_the_least_roughness() -> None:
     plan = planned(MirrorLayer(ior_2=1.5, cells=10))
     assert plan.layers[0].alpha == ALPHA_MIN
@@ -62,6 +85,13 @@ def test_nothing_passes_to_a_black_base() -> None:
     assert planned(ROUGH, ROUGH).under == "base"
     # A metal of F0 = 0 still mirrors what grazes it.
     assert planned(ROUGH, pbr=MetallicRoughness(base_color_factor=(0.0, 0.0, 0.0, 1.0))).under == "base"
+
+
+def test_what_passes_is_asked_for_where_light_comes_from_behind() -> None:
+    bragg = Bragg(1.0, layers=(ROUGH,))
+    for pbr, under in ((WHITE, "base"), (BLACK, "nothing")):
+        plan = plan_layers(Material(pbr=pbr, bragg=bragg, transmission=Transmission(1.0)))
+        assert plan is not None and plan.under == under
 
 
 def test_one_layer_on_black_needs_its_colour_alone() -> None:
