@@ -47,7 +47,8 @@ class GLTFBuilder:
         self._binary = bytearray()
         self._images: list[tuple[str, bytes]] = []
         self._lights: list[dict[str, Any]] = []
-        self._geometry: dict[tuple[int, bool, bool], tuple[Shape, dict[str, int], int]] = {}
+        self._variants: list[str] = []
+        self._geometry: dict[tuple[int, ...], tuple[tuple[Any, ...], dict[str, int], int]] = {}
         self._gltf = pygltflib.GLTF2(
             asset=pygltflib.Asset(
                 generator="gltf-iri samples", copyright="gltf-iri contributors, Apache-2.0"
@@ -118,24 +119,33 @@ class GLTFBuilder:
         material: int,
         rotation: ArrayLike = (0.0, 0.0, 0.0, 1.0),
         translation_m: ArrayLike = (0.0, 0.0, 0.0),
+        second_uvs: NDArray[np.float64] | None = None,
+        variants: Mapping[str, int] | None = None,
     ) -> None:
         """Add a mesh and the node that holds it; the same `shape` again costs no further vertices.
 
         rotation : unit quaternion (x, y, z, w); then the node is moved by translation_m, (3,).
+        second_uvs : (n, 2), the shape's TEXCOORD_1. variants : names of variants and their materials.
         """
-        attributes, indices = self._shape(shape, self._has_textures(material), self._has_normals(material))
+        attributes, indices = self._shape(shape, second_uvs, material)
         primitive = self._model.Primitive(
             attributes=self._model.Attributes(**attributes), indices=indices, material=material
         )
+        if variants:
+            mappings = [{"material": m, "variants": [self._variant(v)]} for v, m in variants.items()]
+            primitive.extensions = {"KHR_materials_variants": {"mappings": mappings}}
         self._gltf.meshes.append(self._model.Mesh(name=name, primitives=[primitive]))
         node = self._model.Node(name=name, mesh=len(self._gltf.meshes) - 1, rotation=rounded_list(rotation))
         if np.any(translation_m):
             node.translation = rounded_list(translation_m)
         self._place(node)
 
-    def _shape(self, shape: Shape, textured: bool, bumpy: bool) -> tuple[dict[str, int], int]:
+    def _shape(
+        self, shape: Shape, second_uvs: NDArray[np.float64] | None, material: int
+    ) -> tuple[dict[str, int], int]:
         """Return the accessors of the attributes and of the triangles of `shape`, added once."""
-        key = (id(shape), textured, bumpy)
+        textured, bumpy = self._has_textures(material), self._has_normals(material)
+        key = (id(shape), id(second_uvs), textured, bumpy)
         if key not in self._geometry:
             attributes = {
                 "POSITION": self._vertices(shape.positions, "VEC3", bounded=True),
@@ -143,11 +153,34 @@ class GLTFBuilder:
             }
             if textured:
                 attributes["TEXCOORD_0"] = self._vertices(shape.uvs, "VEC2")
+            if second_uvs is not None:
+                attributes["TEXCOORD_1"] = self._vertices(second_uvs, "VEC2")
             if bumpy:
                 attributes["TANGENT"] = self._vertices(shape.tangents, "VEC4")
             indices = self._accessor(shape.triangles.ravel(), "SCALAR", _UNSIGNED_SHORT, _INDICES)
-            self._geometry[key] = (shape, attributes, indices)  # the shape stays, and its id with it
+            kept = (shape, second_uvs)  # they stay, and their ids with them
+            self._geometry[key] = (kept, attributes, indices)
         return self._geometry[key][1:]
+
+    def pointer_animation(self, name: str, times_s: ArrayLike, tracks: Mapping[str, ArrayLike]) -> None:
+        """Add an animation of properties (KHR_animation_pointer), linear between `times_s` (k,).
+
+        tracks : JSON pointers and their values at those times, (k,) or (k, 2).
+        """
+        instants = np.asarray(times_s, dtype=np.float64)[:, None]
+        times = self._floats(instants, "SCALAR", None, bounded=True)
+        animation = self._model.Animation(name=name)
+        for pointer, values in tracks.items():
+            rows = np.asarray(values, dtype=np.float64)
+            output = self._floats(rows, "SCALAR" if rows.ndim == 1 else f"VEC{rows.shape[1]}", None)
+            target = self._model.AnimationChannelTarget(
+                path="pointer", extensions={"KHR_animation_pointer": {"pointer": pointer}}
+            )
+            channel = self._model.AnimationChannel(sampler=len(animation.samplers), target=target)
+            animation.samplers.append(self._model.AnimationSampler(input=times, output=output))
+            animation.channels.append(channel)
+        self._gltf.animations.append(animation)
+        self._use("KHR_animation_pointer")
 
     def perspective_camera(self, eye: ArrayLike, target: ArrayLike, yfov_rad: float) -> None:
         """Add a camera at `eye` (m) that looks at `target`."""
@@ -192,9 +225,18 @@ class GLTFBuilder:
         self._gltf.buffers.append(self._model.Buffer(byteLength=len(self._binary), uri=uri))
         if self._lights:
             self._gltf.extensions["KHR_lights_punctual"] = {"lights": self._lights}
+        if self._variants:
+            names = [{"name": name} for name in self._variants]
+            self._gltf.extensions["KHR_materials_variants"] = {"variants": names}
 
     def _use(self, *extensions: str) -> None:
         self._gltf.extensionsUsed = sorted({*self._gltf.extensionsUsed, *extensions})
+
+    def _variant(self, name: str) -> int:
+        if name not in self._variants:
+            self._variants.append(name)
+            self._use("KHR_materials_variants")
+        return self._variants.index(name)
 
     def _has_textures(self, material: int) -> bool:
         made = self._gltf.materials[material]
@@ -220,14 +262,19 @@ class GLTFBuilder:
 
     def _vertices(self, values: NDArray[np.float64], kind: str, *, bounded: bool = False) -> int:
         """Add one attribute; POSITION must state its bounds (glTF 2.0 §3.7.2.1)."""
+        return self._floats(values, kind, _VERTICES, bounded=bounded)
+
+    def _floats(
+        self, values: NDArray[np.float64], kind: str, target: int | None, *, bounded: bool = False
+    ) -> int:
         data = rounded(values).astype(np.float32)
-        index = self._accessor(data, kind, _FLOAT, _VERTICES)
+        index = self._accessor(data, kind, _FLOAT, target)
         if bounded:
             self._gltf.accessors[index].min = [float(low) for low in data.min(axis=0)]
             self._gltf.accessors[index].max = [float(high) for high in data.max(axis=0)]
         return index
 
-    def _accessor(self, data: NDArray[Any], kind: str, component_type: int, target: int) -> int:
+    def _accessor(self, data: NDArray[Any], kind: str, component_type: int, target: int | None) -> int:
         little_endian = data.astype(data.dtype.newbyteorder("<"), copy=False)
         view = self._view(little_endian.tobytes(), target)
         self._gltf.accessors.append(
