@@ -21,6 +21,9 @@ NAMES = (
     "beetle",
     "thickness-swatches",
     "angle-fan",
+    "jewel-beetle",
+    "morpho",
+    "opal",
 )
 
 _INDEX = "index.json"

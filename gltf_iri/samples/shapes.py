@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-__all__ = ["Shape", "merge", "sheet", "solid_of_revolution", "tile"]
+__all__ = ["Shape", "grid", "merge", "sheet", "solid_of_revolution", "tile"]
 
 Float64 = NDArray[np.float64]
 
@@ -45,6 +45,23 @@ def _right_handed(along: Float64) -> Float64:
     return np.concatenate([along, np.ones((len(along), 1))], axis=-1)
 
 
+def grid(positions: Float64, normals: Float64, along_u: Float64, uvs: Float64) -> Shape:
+    """Return the surface over a grid of vertices, row 0 on top, columns to the right as seen from outside.
+
+    positions, normals, along_u : (rows, columns, 3), in m and any length; along_u lies in the surface.
+    uvs : (rows, columns, 2).
+
+    Triangles without area, as around a pole, are left out.
+    """
+    rows, columns = positions.shape[:2]
+    flat = positions.reshape(-1, 3)
+    triangles = _grid_triangles(rows - 1, columns - 1)
+    corners = flat[triangles]
+    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=-1)
+    tangents = _right_handed(_unit(along_u).reshape(-1, 3))
+    return Shape(flat, _unit(normals).reshape(-1, 3), uvs.reshape(-1, 2), triangles[area > 1e-12], tangents)
+
+
 def solid_of_revolution(
     radius: ArrayLike, height: ArrayLike, slope: ArrayLike, v: ArrayLike, *, segments: int
 ) -> Shape:
@@ -63,14 +80,9 @@ def solid_of_revolution(
     positions = np.stack([r[:, None] * sine, h[:, None] * ones, r[:, None] * cosine], axis=-1)
     outward, up = profile[:, :1], profile[:, 1:]
     normals = np.stack([outward * sine, up * ones, outward * cosine], axis=-1)
-    tangents = np.stack([ones * cosine, 0.0 * ones, -ones * sine, ones], axis=-1)
+    tangents = np.stack([ones * cosine, 0.0 * ones, -ones * sine], axis=-1)
     uvs = np.stack([ones * u, np.asarray(v, dtype=np.float64)[:, None] * ones], axis=-1)
-    triangles = _grid_triangles(len(r) - 1, segments)
-    flat = positions.reshape(-1, 3)
-    corners = flat[triangles]
-    area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=-1)
-    kept = triangles[area > 1e-12]  # at the poles one of each pair of triangles has no area
-    return Shape(flat, normals.reshape(-1, 3), uvs.reshape(-1, 2), kept, tangents.reshape(-1, 4))
+    return grid(positions, normals, tangents, uvs)
 
 
 def sheet(
@@ -84,11 +96,9 @@ def sheet(
     u, v = np.meshgrid(line, line)
     x, z = (u - 0.5) * width_m, (v - 0.5) * depth_m
     y, slope_x, slope_z = height(x, z)
-    positions = np.stack([x, y, z], axis=-1).reshape(-1, 3)
-    normals = _unit(np.stack([-slope_x, np.ones_like(x), -slope_z], axis=-1)).reshape(-1, 3)
-    along = _unit(np.stack([np.ones_like(x), slope_x, np.zeros_like(x)], axis=-1)).reshape(-1, 3)
-    uvs = np.stack([u, v], axis=-1).reshape(-1, 2)
-    return Shape(positions, normals, uvs, _grid_triangles(cells, cells), _right_handed(along))
+    normals = np.stack([-slope_x, np.ones_like(x), -slope_z], axis=-1)
+    along = np.stack([np.ones_like(x), slope_x, np.zeros_like(x)], axis=-1)
+    return grid(np.stack([x, y, z], axis=-1), normals, along, np.stack([u, v], axis=-1))
 
 
 def tile(centre: ArrayLike, across: ArrayLike, up: ArrayLike, uv: tuple[float, float]) -> Shape:
