@@ -79,7 +79,7 @@ def build() -> Sample:
             "The mirrors lie in air and their films are all denser than it, so air's own surface is part "
             "of each: of this extension only a stack's last layer may be such a one, over a base without "
             "metal and transmission. The denser film is met first: its surface reflects in step with the "
-            "cells. Met in the other order the two work against each other, X
+            "cells. Met in the other order the two work against each other, and 33 % at 521 nm become a "
             "grey that any wave keeps below 13 %."
         ),
         fallback=(
