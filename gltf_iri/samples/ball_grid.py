@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from math import tan
 from typing import Final
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from gltf_iri.samples.builder import GLTFBuilder
 from gltf_iri.samples.sphere import sphere
@@ -18,15 +21,33 @@ _YFOV_RAD: Final = 0.2  # far away, so that balls at the side are seen as those 
 _ASPECT: Final = 4.0 / 3.0
 
 
-def add_ball_grid(builder: GLTFBuilder, rows: Sequence[Sequence[tuple[str, int]]]) -> None:
-    """Add balls of `rows` of (name, material), from the top left, a camera that sees all, and a light."""
+def add_ball_grid(
+    builder: GLTFBuilder,
+    rows: Sequence[Sequence[tuple[str, int]]],
+    *,
+    second_uvs_scale: ArrayLike | None = None,
+    variants: Mapping[str, Mapping[str, int]] | None = None,
+) -> None:
+    """Add balls of `rows` of (name, material), from the top left, a camera that sees all, and a light.
+
+    second_uvs_scale : (2,), how often u and v of the second texture coordinates run where the first run once.
+    variants : of the ball of each name, as `GLTFBuilder.mesh` takes them.
+    """
     ball = sphere(RADIUS_M, rings=32, segments=64)
+    second_uvs = None if second_uvs_scale is None else ball.uvs * np.asarray(second_uvs_scale)
     columns = max(len(row) for row in rows)
     for line, row in enumerate(rows):
         for column, (name, material) in enumerate(row):
             x = (column - (columns - 1) / 2.0) * _PITCH_M
             y = ((len(rows) - 1) / 2.0 - line) * _PITCH_M
-            builder.mesh(name, ball, material, translation_m=(x, y, 0.0))
+            builder.mesh(
+                name,
+                ball,
+                material,
+                translation_m=(x, y, 0.0),
+                second_uvs=second_uvs,
+                variants=(variants or {}).get(name),
+            )
     width_m, height_m = (count * _PITCH_M + 2.0 * _MARGIN_M for count in (columns, len(rows)))
     distance_m = max(height_m, width_m / _ASPECT) / 2.0 / tan(_YFOV_RAD / 2.0)
     builder.perspective_camera((0.0, 0.0, distance_m), (0.0, 0.0, 0.0), _YFOV_RAD)

@@ -5,20 +5,18 @@ The object model is pygltflib's; it is imported when the first builder is made, 
 
 from __future__ import annotations
 
-import struct
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from gltf_iri.samples.rounding import rounded, rounded_list
+from gltf_iri.samples.accessors import Accessors
+from gltf_iri.samples.rounding import rounded_list
 from gltf_iri.samples.shapes import Shape
 
 __all__ = ["GLTFBuilder", "facing"]
 
-_FLOAT, _UNSIGNED_SHORT = 5126, 5123
-_VERTICES, _INDICES = 34962, 34963  # bufferView.target
 _NEAREST, _LINEAR, _LINEAR_MIPMAP_LINEAR = 9728, 9729, 9987
 _REPEAT, _CLAMP = 10497, 33071
 
@@ -44,11 +42,9 @@ class GLTFBuilder:
 
         self._model = pygltflib
         self._name = name
-        self._binary = bytearray()
         self._images: list[tuple[str, bytes]] = []
         self._lights: list[dict[str, Any]] = []
         self._variants: list[str] = []
-        self._geometry: dict[tuple[int, ...], tuple[tuple[Any, ...], dict[str, int], int]] = {}
         self._gltf = pygltflib.GLTF2(
             asset=pygltflib.Asset(
                 generator="gltf-iri samples", copyright="gltf-iri contributors, Apache-2.0"
@@ -56,6 +52,7 @@ class GLTFBuilder:
             scene=0,
             scenes=[pygltflib.Scene(name=name, nodes=[])],
         )
+        self._stored = Accessors(self._gltf)
 
     def texture(self, name: str, png: bytes, *, nearest: bool = False, repeat: bool = False) -> int:
         """Add an image with its own sampler and return the texture's index.
@@ -143,24 +140,19 @@ class GLTFBuilder:
     def _shape(
         self, shape: Shape, second_uvs: NDArray[np.float64] | None, material: int
     ) -> tuple[dict[str, int], int]:
-        """Return the accessors of the attributes and of the triangles of `shape`, added once."""
-        textured, bumpy = self._has_textures(material), self._has_normals(material)
-        key = (id(shape), id(second_uvs), textured, bumpy)
-        if key not in self._geometry:
-            attributes = {
-                "POSITION": self._vertices(shape.positions, "VEC3", bounded=True),
-                "NORMAL": self._vertices(shape.normals, "VEC3"),
-            }
-            if textured:
-                attributes["TEXCOORD_0"] = self._vertices(shape.uvs, "VEC2")
-            if second_uvs is not None:
-                attributes["TEXCOORD_1"] = self._vertices(second_uvs, "VEC2")
-            if bumpy:
-                attributes["TANGENT"] = self._vertices(shape.tangents, "VEC4")
-            indices = self._accessor(shape.triangles.ravel(), "SCALAR", _UNSIGNED_SHORT, _INDICES)
-            kept = (shape, second_uvs)  # they stay, and their ids with them
-            self._geometry[key] = (kept, attributes, indices)
-        return self._geometry[key][1:]
+        """Return the accessors of the attributes and of the triangles of `shape`, each added once."""
+        stored = self._stored
+        attributes = {
+            "POSITION": stored.attribute(shape.positions, "VEC3", bounded=True),
+            "NORMAL": stored.attribute(shape.normals, "VEC3"),
+        }
+        if self._has_textures(material):
+            attributes["TEXCOORD_0"] = stored.attribute(shape.uvs, "VEC2")
+        if second_uvs is not None:
+            attributes["TEXCOORD_1"] = stored.attribute(second_uvs, "VEC2")
+        if self._has_normals(material):
+            attributes["TANGENT"] = stored.attribute(shape.tangents, "VEC4")
+        return attributes, stored.indices(shape.triangles)
 
     def pointer_animation(self, name: str, times_s: ArrayLike, tracks: Mapping[str, ArrayLike]) -> None:
         """Add an animation of properties (KHR_animation_pointer), linear between `times_s` (k,).
@@ -168,11 +160,11 @@ class GLTFBuilder:
         tracks : JSON pointers and their values at those times, (k,) or (k, 2).
         """
         instants = np.asarray(times_s, dtype=np.float64)[:, None]
-        times = self._floats(instants, "SCALAR", None, bounded=True)
+        times = self._stored.floats(instants, "SCALAR", bounded=True)
         animation = self._model.Animation(name=name)
         for pointer, values in tracks.items():
             rows = np.asarray(values, dtype=np.float64)
-            output = self._floats(rows, "SCALAR" if rows.ndim == 1 else f"VEC{rows.shape[1]}", None)
+            output = self._stored.floats(rows, "SCALAR" if rows.ndim == 1 else f"VEC{rows.shape[1]}")
             target = self._model.AnimationChannelTarget(
                 path="pointer", extensions={"KHR_animation_pointer": {"pointer": pointer}}
             )
@@ -206,10 +198,10 @@ class GLTFBuilder:
     def to_glb(self) -> dict[str, bytes]:
         """Return the asset as one binary file."""
         for name, png in self._images:
-            view = self._view(png, None)
+            view = self._stored.view(png)
             self._gltf.images.append(self._model.Image(name=name, mimeType="image/png", bufferView=view))
         self._finish(uri=None)
-        self._gltf.set_binary_blob(bytes(self._binary))
+        self._gltf.set_binary_blob(bytes(self._stored.binary))
         return {f"{self._name}.glb": b"".join(self._gltf.save_to_bytes())}
 
     def to_gltf(self) -> dict[str, bytes]:
@@ -219,10 +211,14 @@ class GLTFBuilder:
             self._gltf.images.append(self._model.Image(name=name, uri=f"{name}.png"))
         self._finish(uri=f"{self._name}.bin")
         text = self._gltf.gltf_to_json(indent=2) + "\n"
-        return {f"{self._name}.gltf": text.encode(), f"{self._name}.bin": bytes(self._binary), **pictures}
+        return {
+            f"{self._name}.gltf": text.encode(),
+            f"{self._name}.bin": bytes(self._stored.binary),
+            **pictures,
+        }
 
     def _finish(self, uri: str | None) -> None:
-        self._gltf.buffers.append(self._model.Buffer(byteLength=len(self._binary), uri=uri))
+        self._gltf.buffers.append(self._model.Buffer(byteLength=len(self._stored.binary), uri=uri))
         if self._lights:
             self._gltf.extensions["KHR_lights_punctual"] = {"lights": self._lights}
         if self._variants:
@@ -259,33 +255,3 @@ class GLTFBuilder:
                 name="camera", camera=index, translation=rounded_list(eye), rotation=facing(eye, target)
             )
         )
-
-    def _vertices(self, values: NDArray[np.float64], kind: str, *, bounded: bool = False) -> int:
-        """Add one attribute; POSITION must state its bounds (glTF 2.0 §3.7.2.1)."""
-        return self._floats(values, kind, _VERTICES, bounded=bounded)
-
-    def _floats(
-        self, values: NDArray[np.float64], kind: str, target: int | None, *, bounded: bool = False
-    ) -> int:
-        data = rounded(values).astype(np.float32)
-        index = self._accessor(data, kind, _FLOAT, target)
-        if bounded:
-            self._gltf.accessors[index].min = [float(low) for low in data.min(axis=0)]
-            self._gltf.accessors[index].max = [float(high) for high in data.max(axis=0)]
-        return index
-
-    def _accessor(self, data: NDArray[Any], kind: str, component_type: int, target: int | None) -> int:
-        little_endian = data.astype(data.dtype.newbyteorder("<"), copy=False)
-        view = self._view(little_endian.tobytes(), target)
-        self._gltf.accessors.append(
-            self._model.Accessor(bufferView=view, componentType=component_type, count=len(data), type=kind)
-        )
-        return len(self._gltf.accessors) - 1
-
-    def _view(self, content: bytes, target: int | None) -> int:
-        view = self._model.BufferView(
-            buffer=0, byteOffset=len(self._binary), byteLength=len(content), target=target
-        )
-        self._gltf.bufferViews.append(view)
-        self._binary += content + bytes(-len(content) % struct.calcsize("I"))  # the next view starts aligned
-        return len(self._gltf.bufferViews) - 1
