@@ -13,7 +13,7 @@ from __future__ import annotations
 import typing
 
 if typing.TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
     from os import PathLike
 
     from numpy.typing import ArrayLike
@@ -21,7 +21,7 @@ if typing.TYPE_CHECKING:
     from gltf_iri.baking.baked import BakedTable
     from gltf_iri.baking.baked_layers import BakedLayers
     from gltf_iri.colour.spaces import Light
-    from gltf_iri.evaluation.film import Base, Dispersion, Evaluation
+    from gltf_iri.evaluation.film import Dispersion, Evaluation
     from gltf_iri.material.material import Material
     from gltf_iri.planning.material_plan import MaterialPlan
     from gltf_iri.planning.reach import Lobe
@@ -81,21 +81,27 @@ def evaluate(
     base_edge_tint: ArrayLike | None = None,
     outside_ior: ArrayLike | None = None,
     bragg: tuple[ArrayLike, ArrayLike, ArrayLike, ArrayLike, ArrayLike] | None = None,
+    layers: Sequence[Sequence[ArrayLike]] | None = None,
+    base_diffuse: ArrayLike | None = None,
+    base_metal: ArrayLike | None = None,
+    base_alpha: float | None = None,
+    light: Sequence[ArrayLike] | None = None,
     host_ior: ArrayLike | None = None,
     white: str | Light = "D65",
     backend: str = "auto",
     parameters: Mapping[str, float | str] | None = None,
     budget: float | None = None,
 ) -> Evaluation:
-    """Return the reflectance colour of a film over a base, or of a Bragg mirror, ``.rgb`` of shape (..., 3).
+    """Return the reflectance colour of a film over a base, a Bragg mirror, or rough layers of such mirrors.
 
-    Linear Rec.709 at factor 1, not gamut-clamped: truth may be negative in a channel. All arrays of shape
-    (...) broadcast together. Equation and source stand with each method in `gltf_iri.evaluation`.
+    ``.rgb`` (..., 3) is linear Rec.709 at factor 1, not gamut-clamped: truth may be negative in a channel.
+    All arrays of shape (...) broadcast together. Equation and source stand with each method in
+    `gltf_iri.evaluation`.
 
     Parameters
     ----------
-    method : one of gltf_iri.planning.method.METHODS; None takes "khr-guarded" for a film and "yeh-spectral"
-        for a mirror.
+    method : one of gltf_iri.planning.method.METHODS; None takes "khr-guarded" for a film, "yeh-spectral" for
+        a mirror and "layers-single" for layers.
     cos_theta_1 : (...) cosine of the angle outside, in [0, 1].
     thickness_nm : (...) thickness of the film in nanometres, ≥ 0; a film needs it.
     film_ior, outside_ior : (...) real refractive indices; without them glTF's default 1.3, and air's 1. The
@@ -107,7 +113,14 @@ def evaluate(
     bragg : n1, n2, d1_nm, d2_nm and the number of cells of a mirror, each (...): the light meets the n1 film
         of each cell first, and beyond the last cell lies n1. Complex indices n + ik, k ≥ 0, absorb; only
         "yeh-spectral" takes them.
-    host_ior : (...) real index outside the mirror; without it n1.
+    layers : outermost first, each n1, n2, d1_nm, d2_nm, cells and α (perceptual roughness squared): what the
+        stack reflects over all directions, with ``.transmitted``, ``.absorbed`` and ``.from_base`` beside it.
+    base_diffuse, base_metal, base_alpha : under the layers a Lambertian share, a number or (3,), and beside
+        it a metal of that F0 and roughness α (0.1); without them nothing comes back from below.
+    light : of layers, its cosine and cosφ of the turn to the viewer (−1, the mirror's side, without it):
+        ``.rgb`` is then the BRDF f_r in 1/sr, lit from there and seen at cos_theta_1. Only then numbers in
+        `layers` may be (...).
+    host_ior : (...) real index outside the mirror, or of what the layers lie in; without it n1, of the first.
     white : "D65", "E", or a `gltf_iri.colour.spaces.Light`: any illuminant, with any RGB space.
     backend : "auto", "numpy" or "numba" (compiled loops, the extra `fast`); the result names the one used.
     parameters : of the method, by name (``Method.parameters``).
@@ -115,49 +128,50 @@ def evaluate(
         method that keeps it is taken, and the result tells its bound as ``.delta_e``; 0 is the truth.
 
     At most one of the three bases; without any, glTF's default index 1.5. Raises UsageError for an unknown
-    method, white, backend or parameter, for two bases, for film and mirror at once, for values out of range,
-    shapes that do not broadcast and budgets that nothing keeps; MissingCapabilityError for "numba" where it
-    is not installed.
+    method, white, backend or parameter, for two bases, for film, mirror or layers at once, for values out of
+    range, shapes that do not broadcast and budgets that nothing keeps; MissingCapabilityError for "numba"
+    where it is not installed.
     """
-    from collections.abc import Iterable
-
-    from gltf_iri.errors import UsageError
-    from gltf_iri.evaluation.film import Film
+    from gltf_iri.evaluation.described import SeenStack, described
     from gltf_iri.evaluation.mirror import Mirror
     from gltf_iri.evaluation.registry import evaluate as evaluate_subject
-    from gltf_iri.material.iridescence import Iridescence
-    from gltf_iri.planning.method import DEFAULT_METHOD, DEFAULT_MIRROR_METHOD
+    from gltf_iri.evaluation.stack_evaluation import evaluate_stack
+    from gltf_iri.planning.method import DEFAULT_LAYERS_METHOD, DEFAULT_METHOD, DEFAULT_MIRROR_METHOD
 
-    subject: Film | Mirror
-    if bragg is not None:
-        of_films = (thickness_nm, film_ior, outside_ior, base_f0, base_ior, base_nk, base_edge_tint)
-        if any(given is not None for given in of_films):
-            raise UsageError("A Bragg mirror has no film and no base, and host_ior for what is outside.")
-        cell = tuple(bragg) if isinstance(bragg, Iterable) else ()
-        if len(cell) != 5:
-            raise UsageError("bragg wants five: n1, n2, d1_nm, d2_nm and the number of cells.")
-        subject = Mirror.of(cos_theta_1, *cell, host_ior)
-    else:
-        if thickness_nm is None:
-            raise UsageError("A film wants thickness_nm, and a mirror bragg.")
-        if host_ior is not None:
-            raise UsageError("A film has outside_ior for what is outside, not host_ior.")
-        index = Iridescence().film_ior if film_ior is None else film_ior
-        base = _base(base_f0, base_ior, base_nk, base_edge_tint)
-        subject = Film.of(cos_theta_1, thickness_nm, index, base, 1.0 if outside_ior is None else outside_ior)
-    default = DEFAULT_METHOD if bragg is None else DEFAULT_MIRROR_METHOD
+    subject = described(
+        cos_theta_1,
+        thickness_nm=thickness_nm,
+        film_ior=film_ior,
+        outside_ior=outside_ior,
+        base_f0=base_f0,
+        base_ior=base_ior,
+        base_nk=base_nk,
+        base_edge_tint=base_edge_tint,
+        bragg=bragg,
+        host_ior=host_ior,
+        layers=layers,
+        base_diffuse=base_diffuse,
+        base_metal=base_metal,
+        base_alpha=base_alpha,
+        light=light,
+    )
     if budget is not None:
+        from gltf_iri.budgets.stacks import evaluate_stack_within
         from gltf_iri.budgets.subjects import evaluate_within
 
         _check_alone(method or parameters)
+        if isinstance(subject, SeenStack):
+            seen = (subject.stack, subject.cos_theta, budget, subject.light)
+            return evaluate_stack_within(*seen, white=white, backend=backend)
         return evaluate_within(subject, budget, white=white, backend=backend)
-    return evaluate_subject(
-        default if method is None else method,
-        subject,
-        white=white,
-        backend=backend,
-        parameters=parameters or {},
-    )
+    set_to = parameters or {}
+    if isinstance(subject, SeenStack):
+        name = DEFAULT_LAYERS_METHOD if method is None else method
+        of_stack = (subject.stack, subject.cos_theta, subject.light)
+        return evaluate_stack(name, *of_stack, white=white, backend=backend, parameters=set_to)
+    default = DEFAULT_MIRROR_METHOD if isinstance(subject, Mirror) else DEFAULT_METHOD
+    name = default if method is None else method
+    return evaluate_subject(name, subject, white=white, backend=backend, parameters=set_to)
 
 
 def render(
@@ -239,38 +253,3 @@ def _check_alone(chosen: object) -> None:
 
     if chosen:
         raise UsageError("A budget chooses method and parameters: give it alone.")
-
-
-def _base(
-    f0: ArrayLike | None,
-    ior: ArrayLike | Dispersion | None,
-    nk: ArrayLike | None,
-    edge_tint: ArrayLike | None,
-) -> Base:
-    import numpy as np
-
-    from gltf_iri.errors import UsageError
-    from gltf_iri.evaluation.film import (
-        base_from_dispersion,
-        base_from_edge_tint,
-        base_from_f0,
-        base_from_ior,
-    )
-    from gltf_iri.material.ior import Ior
-
-    if sum(given is not None for given in (f0, ior, nk)) > 1:
-        raise UsageError("There is one base only: give base_f0, base_ior or base_nk.")
-    if edge_tint is not None and f0 is None:
-        raise UsageError("An edge tint wants base_f0, the metal's colour straight on.")
-    if f0 is not None:
-        colour = np.asarray(f0, dtype=np.float64)
-        colour = np.repeat(colour, 3) if colour.ndim == 0 else colour
-        return base_from_f0(colour) if edge_tint is None else base_from_edge_tint(colour, edge_tint)
-    if nk is not None:
-        pairs = np.asarray(nk, dtype=np.float64)
-        if pairs.shape[-1:] != (2,):
-            raise UsageError("base_nk wants n and k in its last axis.")
-        return base_from_ior(pairs[..., 0] + 1j * pairs[..., 1])
-    if callable(ior):
-        return base_from_dispersion(ior)
-    return base_from_ior(Ior().ior if ior is None else ior)

@@ -7,10 +7,12 @@ through those above, and over a base of what passes all; what is stated is the g
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from gltf_iri.budgets.candidates import Candidate, direct_candidates
 from gltf_iri.budgets.errors import Measured
@@ -21,11 +23,12 @@ from gltf_iri.colour.spaces import Light
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.layer_methods import layer_colours
 from gltf_iri.evaluation.layers import LayerColours, LayerStack
+from gltf_iri.evaluation.stack_evaluation import StackEvaluation, evaluate_stack
 from gltf_iri.optics.layer_stack import Sight, sight_of
 from gltf_iri.planning.costs import Device, shipped_costs
 from gltf_iri.planning.method import METHODS, truth_of
 
-__all__ = ["way_for_stack"]
+__all__ = ["evaluate_stack_within", "way_for_stack"]
 
 Float64 = NDArray[np.float64]
 
@@ -80,6 +83,26 @@ def way_for_stack(
         return Measured(below, below <= allowed and poses == _LOOKS[-1])
 
     return cheapest_way(candidates, measure, budget, 1.0, subject="these layers")
+
+
+def evaluate_stack_within(
+    stack: LayerStack,
+    cos_theta: ArrayLike,
+    budget: float,
+    light: Sequence[ArrayLike] | None = None,
+    *,
+    white: str | Light = "D65",
+    backend: str = "auto",
+) -> StackEvaluation:
+    """Evaluate `stack` as `evaluate_stack` does, by the cheapest method that keeps `budget`.
+
+    `.delta_e` is its bound and `.ns_per_colour` its price. Raises UsageError as both.
+    """
+    way = way_for_stack(stack, budget, white=white).way
+    done = evaluate_stack(
+        str(way.method), stack, cos_theta, light, white=white, backend=backend, parameters=way.parameters
+    )
+    return replace(done, delta_e=way.delta_e, ns_per_colour=way.ns_per_colour)
 
 
 def _terms(colours: LayerColours, stack: LayerStack, sight: Sight) -> list[Float64]:

@@ -1,7 +1,8 @@
-"""`gltf-iri evaluate`: the reflectance colour of a film over angles."""
+"""`gltf-iri evaluate`: the reflectance colour of a film, a mirror or layers over angles."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,12 +13,12 @@ from gltf_iri.cli.budget import budget_option, check_choice, nanoseconds
 from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
 from gltf_iri.cli.evaluate_array import DEFAULT_COLUMNS, array_to_array
 from gltf_iri.cli.evaluate_layers import from_layers, layer_options, print_layers, refuse_layer_options
+from gltf_iri.cli.evaluate_material import from_file, print_material_layers
 from gltf_iri.cli.evaluate_subject import (
     DEFAULT_BASE,
     DEFAULT_FILM,
     DEFAULT_OUTSIDE_IOR,
     How,
-    from_file,
     from_mirror,
     from_parameters,
 )
@@ -63,7 +64,9 @@ def _allowed(parameter: Parameter) -> str:
 
 @click.command(name="evaluate", epilog=_parameters_help())
 @click.argument("file", required=False, type=click.Path(exists=True, dir_okay=False, path_type=Path))
-@click.option("--material", metavar="M", help="Material of FILE, by name or number; else its only film.")
+@click.option(
+    "--material", metavar="M", help="Material of FILE, by name or number; else its only film or layers."
+)
 @click.option("--film-ior", type=float, help=f"Refractive index of the film [{DEFAULT_FILM.film_ior:g}].")
 @click.option(
     "--thickness", type=float, metavar="NM", help=f"In nanometres [{DEFAULT_FILM.thickness_max_nm:g}]."
@@ -124,7 +127,12 @@ def _allowed(parameter: Parameter) -> str:
     help="What --in holds: cos, thickness, film_ior, outside_ior, base_f0 or base_r, base_g, base_b "
     f"[{','.join(DEFAULT_COLUMNS)}].",
 )
-@click.option("--layered", is_flag=True, help="Add the specular colour and base weight of FILE's material.")
+@click.option(
+    "--layered",
+    is_flag=True,
+    help="Add what FILE's material makes of it: of a film the specular colour and base weight, of layers the "
+    "surface without them and both, mixed by the factor.",
+)
 @json_option
 def command(
     file: Path | None,
@@ -144,10 +152,10 @@ def command(
 ) -> None:
     """Print reflectance colours of a film, mirror or layers, linear Rec.709, at cosines of the outside angle.
 
-    Either of a material of FILE, at its thickness maximum and without its textures, or of a film or a Bragg
-    mirror given by options; or of all the films in a .npy file, into another. Of rough layers, what they send
-    back over all directions, and what they transmit and absorb. Colours are not cut to the gamut: the truth
-    may be negative in a channel.
+    Either of a material of FILE, at its thickness or period maxima and without its textures, or of a film, a
+    Bragg mirror or rough layers given by options; or of all the films in a .npy file, into another. Of
+    layers, what they send back over all directions, and what they transmit and absorb, or with --light their
+    BRDF. Colours are not cut to the gamut: the truth may be negative in a channel.
     """
     parameters = dict(settings)
     if len(parameters) < len(settings):
@@ -156,7 +164,7 @@ def command(
     how = How(method, white, backend, parameters, budget)
     subject["layer"] = subject["layer"] or None
     if subject["layer"] is None:
-        refuse_layer_options(subject)
+        refuse_layer_options(subject, has_file=file is not None)
     if source is not None:
         if layered or click.get_current_context().get_parameter_source("cosines") is not _BY_DEFAULT:
             raise click.UsageError("--in has its cosines in a column, and no --layered")
@@ -167,6 +175,10 @@ def command(
         raise click.UsageError("--out and --columns need --in, a .npy file of films")
     if file is not None:
         result = from_file(file, material, cosines, how, layered, subject)
+        if "layers" in result and not as_json:
+            print_material_layers(result)
+            _note_the_rest(result)
+            return
     elif material is not None or layered:
         raise click.UsageError("--material and --layered need a FILE")
     elif subject["layer"] is not None:
@@ -207,8 +219,15 @@ def _print(result: dict[str, Any]) -> None:
     print_table(columns, rows, title=title)
     if "reason" in result:
         note(f"Computed as a film: {result['reason']}.")
-    if result.get("textures_left_out"):
-        left_out = ", ".join(result["textures_left_out"])
-        note(f"The base is that of the material's factors alone, without {left_out}.")
     for case, where in result["undefined"].items():
         note(f"the method leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")
+    _note_the_rest(result)
+
+
+def _note_the_rest(result: Mapping[str, Any]) -> None:
+    """Say what of a file's material is not in the numbers."""
+    if result.get("textures_left_out"):
+        left_out = ", ".join(result["textures_left_out"])
+        note(f"The material's factors stand alone, without {left_out}.")
+    for effect, reason in result.get("not_drawn", {}).items():
+        note(f"{effect} is not in these numbers: {reason}.")

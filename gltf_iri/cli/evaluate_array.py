@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gltf_iri.cli.common import note, print_json, progress
+from gltf_iri.cli.evaluate_material import chosen_material
 from gltf_iri.cli.evaluate_subject import (
     DEFAULT_BASE,
     DEFAULT_FILM,
     DEFAULT_OUTSIDE_IOR,
     How,
-    chosen_material,
 )
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def _films(
     """Return what the rows are films of; click.UsageError where a column and an option say the same."""
     from gltf_iri.arrays.films import ArrayFilms, lobe_of
 
-    if any(given[name] is not None for name in ("bragg", "host_ior", "layer")):
+    if any(given[name] is not None for name in ("bragg", "host_ior", "layer", "light", "period_texel")):
         raise click.UsageError("--in reads films; mirrors and layers are evaluated at --cos")
     asked = {name for name, value in given.items() if value is not None}
     for column in columns:

@@ -208,6 +208,6 @@ def test_a_choice_is_offered_only_where_there_is_one(
         return capsys.readouterr().err
 
     plain, *films = TWO_FILMS["materials"]
-    assert refusal([plain]).endswith("some.gltf has no material with a film; name another file.\n")
+    assert refusal([plain]).endswith("some.gltf has no material with a film or layers; name another file.\n")
     assert refusal([plain, *films]).endswith("choose one with --material from: 1 a, 2 b.\n")
     assert refusal([plain] * 500, "--material", "x").endswith("7 plain and 492 more.\n")
