@@ -18,6 +18,7 @@ RADIUS_M: Final = 0.02
 _PITCH_M: Final = 0.046
 _MARGIN_M: Final = 0.008
 _YFOV_RAD: Final = 0.2  # far away, so that balls at the side are seen as those in the middle
+_TURNED: Final = (0.0, 1.0, 0.0, 0.0)  # half a turn about +Y: the seam of the textures is behind
 _ASPECT: Final = 4.0 / 3.0
 
 
@@ -30,7 +31,7 @@ def add_ball_grid(
 ) -> None:
     """Add balls of `rows` of (name, material), from the top left, a camera that sees all, and a light.
 
-    second_uvs_scale : (2,), how often u and v of the second texture coordinates run where the first run once.
+    second_uvs_scale : (2,), how often the second texture coordinates run where the first run once.
     variants : of the ball of each name, as `GLTFBuilder.mesh` takes them.
     """
     ball = sphere(RADIUS_M, rings=32, segments=64)
@@ -44,6 +45,7 @@ def add_ball_grid(
                 name,
                 ball,
                 material,
+                rotation=_TURNED,
                 translation_m=(x, y, 0.0),
                 second_uvs=second_uvs,
                 variants=(variants or {}).get(name),

@@ -15,7 +15,8 @@ from gltf_iri.samples.sample import Sample
 
 __all__ = ["TIMES_S", "TRACKS", "build"]
 
-TEXELS = 48
+TEXELS = 32
+REPEATS: Final = [4.0, 2.0]  # of a texture around a ball and from pole to pole
 WATER, CHITIN = 1.33, 1.56
 
 # The first layer states all it has; the second one's period falls where the texture rises; the third is all
@@ -75,7 +76,7 @@ def build() -> Sample:
     ripples = builder.texture("ripples", encode_png(to_bytes(_ripples())), repeat=True)
     names = ("four layers", "coated metal", "cloth", "glass", "half a metal", "no layers")
     materials = (
-        _four_layers(builder, names[0], mask, periods),
+        _four_layers(builder, names[0], mask, periods, ripples),
         _metal(builder, names[1], mask),
         _cloth(builder, names[2]),
         _glass(builder, names[3], periods),
@@ -85,6 +86,8 @@ def build() -> Sample:
             base_color=(0.25, 0.02, 0.03),
             metallic=0.0,
             roughness=0.25,
+            normal_texture=ripples,
+            normal_repeats=4.0,
             extensions={"EXT_materials_bragg": {}},
         ),
     )
@@ -93,7 +96,7 @@ def build() -> Sample:
     add_ball_grid(
         builder,
         [balls[:3], balls[3:]],
-        second_uvs_scale=(4.0, 2.0),
+        second_uvs_scale=REPEATS,
         variants={names[0]: switched, names[-1]: switched},
     )
     builder.pointer_animation("shimmer", TIMES_S, TRACKS)
@@ -106,18 +109,18 @@ def build() -> Sample:
         ),
         look_for=(
             "From the top left. Four layers in a host of index 1.33, with every property that a layer "
-            "has: islands of layers on a red ball, whose colour wanders from yellow over green to "
-            "blue because one texture moves the periods of all layers, those of the second layer the "
-            "other way. The third layer is an empty object and so all defaults; the last one has an "
-            "index of its own. Both textures lie on the second texture coordinates, one by its "
-            "texCoord, the other by that of its KHR_texture_transform: where islands and waves are "
-            "not repeated four times around the ball, texCoord was not read.\n\n"
-            "A gold under layers and a clear coat, which the islands cut out too: yellow-green face "
-            "on and rosy at the silhouette. Blue cloth with a sheen, violet where the layers mirror. "
-            "A glass ball: what the layers mirror, light from behind has lost, a yellow and violet "
-            "tinge in the middle. Half a metal of which layers cover one half (braggFactor 0.5), "
-            "rippled and anisotropic. And a red ball with an empty EXT_materials_bragg, which must "
-            "look as if it were not there.\n\n"
+            "has: a red ball under layers with round gaps in them, whose colour wanders from yellow "
+            "over green to blue because one texture moves the periods of all layers, those of the "
+            "second layer the other way. The third layer is an empty object and so all defaults; the "
+            "last one has an index of its own. Both textures lie on the second texture coordinates, "
+            "one by its texCoord, the other by that of its KHR_texture_transform: where gaps do not "
+            "repeat four times around the ball, texCoord was not read.\n\n"
+            "A gold under layers and a clear coat, which has gaps too: yellow-green face on and rosy "
+            "at the silhouette. Blue cloth with a sheen, violet where the layers mirror. A glass "
+            "ball: what the layers mirror, light from behind has lost, a yellow and violet tinge in "
+            "the middle. Half a metal of which layers cover one half (braggFactor 0.5), rippled and "
+            "anisotropic. And a rippled red ball with an empty EXT_materials_bragg, which must look "
+            "as if it were not there.\n\n"
             'The variants "layers" and "no layers" give the first and the last ball one material '
             'together. The animation "shimmer" moves factor, host, periods, fill, indices, roughness '
             "and both texture transforms within four seconds, through KHR_animation_pointer. This "
@@ -126,29 +129,31 @@ def build() -> Sample:
         ),
         sources=(
             "All numbers are chosen for their look and to differ from defaults. 1.33 is water and "
-            "1.56 chitin; the four layers' periods run from 150 to 260 nm. Textures are 48 × 48; each "
-            "of them also serves a Khronos extension (clearcoat, volume thickness, normals), so that "
-            "validators that do not know this one find them used."
+            "1.56 chitin; the four layers' periods run from 150 to 260 nm. Textures are 32 × 32; each "
+            "also serves the core material or a Khronos extension (the surface's tint, clearcoat, "
+            "volume thickness, normals), so that validators that do not know this one find it used."
         ),
         fallback=(
-            "A red ball with mint reflections, coated gold, blue cloth with a sheen, plain glass, a "
-            "rippled half metal and a plain red ball: what KHR extensions and the core material make "
-            "of them."
+            "A red ball with the same gaps in a tint of mint, coated gold, blue cloth with a sheen, "
+            "plain glass, a rippled half metal and a plain red ball: what KHR extensions and the core "
+            "material make of them."
         ),
         files=builder.to_glb(),
     )
 
 
-def _four_layers(builder: GLTFBuilder, name: str, mask: int, periods: int) -> int:
+def _four_layers(builder: GLTFBuilder, name: str, mask: int, periods: int, ripples: int) -> int:
+    """Layers with gaps; whoever ignores them sees a tinted surface with the same gaps."""
+    covered = {
+        "index": mask,
+        "texCoord": 1,
+        "extensions": {"KHR_texture_transform": {"offset": [0.0, 0.0], "rotation": 0.2, "scale": [1.0, 1.0]}},
+    }
+    surface = tinted_surface((0.1, 0.3, 0.2))
+    surface["KHR_materials_specular"]["specularColorTexture"] = covered
     bragg = {
         "braggFactor": 1.0,
-        "braggTexture": {
-            "index": mask,
-            "texCoord": 1,
-            "extensions": {
-                "KHR_texture_transform": {"offset": [0.0, 0.0], "rotation": 0.2, "scale": [1.0, 1.0]}
-            },
-        },
+        "braggTexture": covered,
         "hostIor": WATER,
         "layers": FOUR_LAYERS,
         "braggPeriodTexture": {
@@ -161,7 +166,9 @@ def _four_layers(builder: GLTFBuilder, name: str, mask: int, periods: int) -> in
         base_color=(0.25, 0.02, 0.03),
         metallic=0.0,
         roughness=0.25,
-        extensions={**tinted_surface((0.1, 0.3, 0.2)), "EXT_materials_bragg": bragg},
+        normal_texture=ripples,
+        normal_repeats=4.0,
+        extensions={**surface, "EXT_materials_bragg": bragg},
     )
 
 
@@ -171,9 +178,8 @@ def _metal(builder: GLTFBuilder, name: str, mask: int) -> int:
         "clearcoatFactor": 1.0,
         "clearcoatTexture": {
             "index": mask,
-            "texCoord": 1,
             "extensions": {
-                "KHR_texture_transform": {"offset": [0.0, 0.5], "rotation": 0.0, "scale": [0.5, 0.5]}
+                "KHR_texture_transform": {"offset": [0.0, 0.5], "rotation": 0.0, "scale": REPEATS}
             },
         },
         "clearcoatRoughnessFactor": 0.05,
@@ -208,6 +214,7 @@ def _cloth(builder: GLTFBuilder, name: str) -> int:
 
 def _glass(builder: GLTFBuilder, name: str, periods: int) -> int:
     """Light from behind crosses the layers once; the volume is as thick as the periods' texture says."""
+    waves = {"index": periods, "extensions": {"KHR_texture_transform": {"scale": REPEATS}}}
     return builder.material(
         name,
         base_color=(1.0, 1.0, 1.0),
@@ -217,7 +224,7 @@ def _glass(builder: GLTFBuilder, name: str, periods: int) -> int:
             "KHR_materials_transmission": {"transmissionFactor": 1.0},
             "KHR_materials_volume": {
                 "thicknessFactor": 2.0 * RADIUS_M,
-                "thicknessTexture": {"index": periods, "texCoord": 1},
+                "thicknessTexture": waves,
                 "attenuationDistance": 0.1,
                 "attenuationColor": [0.8, 0.95, 0.9],
             },
@@ -232,7 +239,7 @@ def _glass(builder: GLTFBuilder, name: str, periods: int) -> int:
                         "roughness": 0.15,
                     }
                 ],
-                "braggPeriodTexture": {"index": periods, "texCoord": 1},
+                "braggPeriodTexture": waves,
             },
         },
     )
@@ -260,7 +267,7 @@ def _waves() -> NDArray[np.float64]:
 
 
 def _mask() -> NDArray[np.float64]:
-    """Return round islands of 1 in 0, (TEXELS, TEXELS)."""
+    """Return round gaps of 0 in 1, (TEXELS, TEXELS)."""
     u, v = texel_centres(TEXELS, TEXELS)
     height = np.cos(2.0 * np.pi * u) * np.cos(2.0 * np.pi * v)
     return np.asarray(np.clip(1.5 + 4.0 * height, 0.0, 1.0))

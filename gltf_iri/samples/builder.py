@@ -122,9 +122,9 @@ class GLTFBuilder:
         """Add a mesh and the node that holds it; the same `shape` again costs no further vertices.
 
         rotation : unit quaternion (x, y, z, w); then the node is moved by translation_m, (3,).
-        second_uvs : (n, 2), the shape's TEXCOORD_1. variants : names of variants and their materials.
+        second_uvs : (n, 2), TEXCOORD_1 where a material reads it. variants : their names and materials.
         """
-        attributes, indices = self._shape(shape, second_uvs, material)
+        attributes, indices = self._shape(shape, second_uvs, {material, *(variants or {}).values()})
         primitive = self._model.Primitive(
             attributes=self._model.Attributes(**attributes), indices=indices, material=material
         )
@@ -138,7 +138,7 @@ class GLTFBuilder:
         self._place(node)
 
     def _shape(
-        self, shape: Shape, second_uvs: NDArray[np.float64] | None, material: int
+        self, shape: Shape, second_uvs: NDArray[np.float64] | None, materials: set[int]
     ) -> tuple[dict[str, int], int]:
         """Return the accessors of the attributes and of the triangles of `shape`, each added once."""
         stored = self._stored
@@ -146,11 +146,13 @@ class GLTFBuilder:
             "POSITION": stored.attribute(shape.positions, "VEC3", bounded=True),
             "NORMAL": stored.attribute(shape.normals, "VEC3"),
         }
-        if self._has_textures(material):
+        made = [self._gltf.materials[material] for material in materials]
+        read = {texcoord for each in made for texcoord in _texcoords_of(each)}
+        if read:
             attributes["TEXCOORD_0"] = stored.attribute(shape.uvs, "VEC2")
-        if second_uvs is not None:
+        if second_uvs is not None and 1 in read:
             attributes["TEXCOORD_1"] = stored.attribute(second_uvs, "VEC2")
-        if self._has_normals(material):
+        if any(each.normalTexture is not None for each in made):
             attributes["TANGENT"] = stored.attribute(shape.tangents, "VEC4")
         return attributes, stored.indices(shape.triangles)
 
@@ -234,15 +236,6 @@ class GLTFBuilder:
             self._use("KHR_materials_variants")
         return self._variants.index(name)
 
-    def _has_textures(self, material: int) -> bool:
-        made = self._gltf.materials[material]
-        has_base_color = made.pbrMetallicRoughness.baseColorTexture is not None
-        in_extensions = any(key.endswith("Texture") for e in made.extensions.values() for key in e)
-        return has_base_color or self._has_normals(material) or in_extensions
-
-    def _has_normals(self, material: int) -> bool:
-        return self._gltf.materials[material].normalTexture is not None
-
     def _place(self, node: Any) -> None:
         self._gltf.nodes.append(node)
         self._gltf.scenes[0].nodes.append(len(self._gltf.nodes) - 1)
@@ -255,3 +248,15 @@ class GLTFBuilder:
                 name="camera", camera=index, translation=rounded_list(eye), rotation=facing(eye, target)
             )
         )
+
+
+def _texcoords_of(material: Any) -> set[int]:
+    """Return the texture coordinates that `material` reads, with KHR_texture_transform and without."""
+    infos = [
+        dict(info) for e in material.extensions.values() for info in e.values() if isinstance(info, dict)
+    ]
+    read = {int(info.get("texCoord", 0)) for info in infos}
+    transforms = [info.get("extensions", {}).get("KHR_texture_transform", {}) for info in infos]
+    read |= {int(transform["texCoord"]) for transform in transforms if "texCoord" in transform}
+    of_core = (material.pbrMetallicRoughness.baseColorTexture, material.normalTexture)
+    return read | {0 for info in of_core if info is not None}

@@ -23,7 +23,12 @@ NAMES = (
     "angle-fan",
     "jewel-beetle",
     "morpho",
+    "dichroic-mirror",
     "opal",
+    "stacked-layers",
+    "bragg-roughness",
+    "bragg-cells",
+    "bragg-everything",
 )
 
 _INDEX = "index.json"
