@@ -11,6 +11,7 @@ of gltf_iri/reference/lobes.py:
   alike from both sides. Beyond the critical angle R = 1.
 - Radiance is carried divided by n²; what it gains on entering a body it loses on leaving.
 - The coat reflects on the outside only; every surface borders on air, also inside of another body.
+- By their factor Bragg layers stand in place of all this but coat and fibres (`glass_layers.py`).
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.facets import Axes, draw_facet, mirrored, refracted, shadowing_ratio
 from gltf_iri.reference.film_on import FilmOn
+from gltf_iri.reference.glass_layers import LocalCrossing, cross_layers
 from gltf_iri.reference.layers import clearcoat_reflectance, fibre_passage
 from gltf_iri.reference.lobes import film_reflectances, layered_reflectances
 from gltf_iri.reference.surface import Surface
@@ -68,10 +70,57 @@ def cross(
     ior : (n,), of the body; not read for walls without volume.
     leaves : (n,), the viewer's side of the surface is inside of the body.
     """
-    count = len(ior)
     axes = Axes.around(surface.normal, surface.anisotropy_tangent)
-    # Along the axes of the side that a path is on, where +Z points away from the surface.
     back = axes.to_viewer(surface.view)
+    local = _cross_base(surface, plan, film, ior, leaves, back, rng)
+    weight = local.weight
+    if plan.calls_for(Effect.SHEEN):
+        weight = weight * np.where(leaves, 1.0, fibre_passage(surface, surface.n_dot_v))[:, None]
+    direction = local.direction * np.where(local.passes[:, None], _TO_OTHER_SIDE, 1.0)
+    crossing = Crossing(axes.to_world(direction), weight, local.passes)
+    return _under_coat(crossing, surface, leaves, rng) if plan.calls_for(Effect.CLEARCOAT) else crossing
+
+
+def _cross_base(
+    surface: Surface,
+    plan: MaterialPlan,
+    film: FilmOn,
+    ior: Float64,
+    leaves: Mask,
+    back: Float64,
+    rng: np.random.Generator,
+) -> LocalCrossing:
+    """Let chance decide by their factor between Bragg layers and the base's own interface."""
+    if plan.layers is None or film.layers is None:
+        return _cross_interface(surface, plan, film, ior, leaves, back, rng)
+    is_stack = rng.random(len(ior)) < surface.bragg_factor
+    crossing = LocalCrossing(back.copy(), np.zeros((len(ior), 3)), np.zeros(len(ior), np.bool_))
+    for rows, is_covered in ((np.flatnonzero(is_stack), True), (np.flatnonzero(~is_stack), False)):
+        if not len(rows):
+            continue
+        here, inside, come = surface.take(rows), leaves[rows], back[rows]
+        if is_covered:
+            index = ior[rows] if plan.calls_for(Effect.VOLUME) else None
+            some = cross_layers(here, plan.layers, film.layers, index, inside, come, rng)
+        else:
+            some = _cross_interface(here, plan, film.at(here), ior[rows], inside, come, rng)
+        crossing.direction[rows], crossing.weight[rows] = some.direction, some.weight
+        crossing.passes[rows] = some.passes
+    return crossing
+
+
+def _cross_interface(
+    surface: Surface,
+    plan: MaterialPlan,
+    film: FilmOn,
+    ior: Float64,
+    leaves: Mask,
+    back: Float64,
+    rng: np.random.Generator,
+) -> LocalCrossing:
+    count = len(ior)
+    # Along the axes of the side that a path is on, where +Z points away from the surface.
+    back = back.copy()
     passes = np.zeros(count, np.bool_)
     weight = np.ones((count, 3))
     rows = np.arange(count)
@@ -87,11 +136,7 @@ def cross(
         if not len(rows):
             break
     weight[rows] = 0.0
-    if plan.calls_for(Effect.SHEEN):
-        weight *= np.where(leaves, 1.0, fibre_passage(surface, surface.n_dot_v))[:, None]
-    direction = -back * np.where(passes[:, None], _TO_OTHER_SIDE, 1.0)
-    crossing = Crossing(axes.to_world(direction), weight, passes)
-    return _under_coat(crossing, surface, leaves, rng) if plan.calls_for(Effect.CLEARCOAT) else crossing
+    return LocalCrossing(-back, weight, passes)
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,7 +62,7 @@ def evaluate_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan:
     sent = _base_lobes(surface, towards_light, film, plan)
     if plan.layers is not None and film.layers is not None:
         share = surface.bragg_factor[:, None]
-        stack = stack_lobes(surface, towards_light, plan.layers, film.layers)
+        stack = stack_lobes(surface, towards_light, plan.layers, film.layers, is_wall=_is_wall(plan))
         sent = (1.0 - share) * sent + share * stack
     if plan.calls_for(Effect.SHEEN):
         n_dot_l = np.clip(np.abs(np.sum(surface.normal * towards_light, axis=1)), 0.0, 1.0)
@@ -115,8 +115,7 @@ def _base_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan: Ma
     of each channel. Nothing passes through a volume here: bent light of a point source would be a caustic.
     """
     cosine = np.sum(surface.normal * towards_light, axis=1)
-    is_thin = plan.calls_for(Effect.TRANSMISSION) and not plan.calls_for(Effect.VOLUME)
-    is_through = (cosine < 0.0) & (surface.transmission > 0.0) & is_thin
+    is_through = (cosine < 0.0) & (surface.transmission > 0.0) & _is_wall(plan)
     # A thin wall bends nothing: its facets see light from behind as if it came mirrored, from the front.
     light = towards_light - 2.0 * np.minimum(cosine, 0.0)[:, None] * surface.normal
     n_dot_l = np.clip(np.abs(cosine), 0.0, 1.0)
@@ -138,6 +137,11 @@ def _base_lobes(surface: Surface, towards_light: Float64, film: FilmOn, plan: Ma
     through = (1.0 - m) * t * surface.base_color * transmitted_share(layers.dielectric.specular) * lobe
     sent = np.where(is_through[:, None], through, in_front)
     return np.asarray(np.where(is_lit[:, None], n_dot_l[:, None] * sent, 0.0))
+
+
+def _is_wall(plan: MaterialPlan) -> bool:
+    """True where light passes without being bent."""
+    return plan.calls_for(Effect.TRANSMISSION) and not plan.calls_for(Effect.VOLUME)
 
 
 def _facets(surface: Surface, plan: MaterialPlan, light: Float64, half: Float64, n_dot_l: Float64) -> Float64:

@@ -15,6 +15,7 @@ from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.environment_map import EnvironmentMap
 from gltf_iri.reference.facets import Axes, draw_facet, mirror_density, mirrored
+from gltf_iri.reference.host_directions import in_host, out_of_host
 from gltf_iri.reference.surface import Surface
 
 __all__ = ["HostFacets", "Technique", "count_techniques", "techniques"]
@@ -87,29 +88,20 @@ class HostFacets:
 
     def __init__(self, axes: Axes, view: Float64, alpha: Float64, host_ior: float) -> None:
         self._axes, self._alpha, self._host_ior = axes, alpha, host_ior
-        self._view = self._inside(axes.to_viewer(view))
+        self._view = in_host(axes.to_viewer(view), host_ior)
 
     def sample(self, place: Float64) -> Float64:
         """Return directions outside; straight down where light would not get out of the host."""
         inside = mirrored(self._view, draw_facet(self._view, self._alpha, self._alpha, place))
-        level = self._host_ior * inside[:, :2]
-        squared = 1.0 - np.sum(level * level, axis=1)
-        outside = np.column_stack([level, np.sqrt(np.maximum(squared, 0.0))])
-        is_lost = (squared <= 0.0) | (inside[:, 2] <= 0.0)
-        return self._axes.to_world(np.where(is_lost[:, None], [0.0, 0.0, -1.0], outside))
+        outside, is_out = out_of_host(inside, self._host_ior)
+        return self._axes.to_world(np.where(is_out[:, None], outside, [0.0, 0.0, -1.0]))
 
     def density(self, direction: Float64) -> Float64:
         """Return the density inside · dω'/dω, with dω'/dω = cosθ / (n² cosθ')."""
         outside = self._axes.to_local(direction)
-        inside = self._inside(outside)
+        inside = in_host(outside, self._host_ior)
         bent = np.maximum(outside[:, 2], 0.0) / (self._host_ior**2 * inside[:, 2])
         return np.asarray(bent * mirror_density(self._view, inside, self._alpha, self._alpha))
-
-    def _inside(self, local: Float64) -> Float64:
-        level = local[:, :2] / self._host_ior
-        # In air rounding may take the level part past 1; nothing is drawn along the surface.
-        height = np.sqrt(np.maximum(1.0 - np.sum(level * level, axis=1), 1e-30))
-        return np.column_stack([level, height])
 
 
 class _Cosine:
