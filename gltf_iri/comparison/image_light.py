@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.baking.layer_lookup import ImageColours
-from gltf_iri.comparison.layer_light import image_on_layers
+from gltf_iri.comparison.layer_light import SeenLayers, image_on_layers
 from gltf_iri.comparison.pixels import ImageLight
 from gltf_iri.optics.layering import CLEARCOAT_F0, transmitted_share
 from gltf_iri.optics.sheen import sheen_weight
@@ -24,7 +23,7 @@ def image_light(
     light: ImageLight,
     plan: MaterialPlan,
     filmed: tuple[Float64, Float64],
-    of_layers: ImageColours | None = None,
+    seen: SeenLayers | None = None,
 ) -> Float64:
     """Return what n pixels send of the image light, (n, 3), without emission and clearcoat.
 
@@ -35,7 +34,7 @@ def image_light(
     Parameters
     ----------
     filmed : the film's reflectances F over the dielectric and over the metal, (n, 3) each.
-    of_layers : what Bragg layers make of image light (`image_on_layers`); None where there are none.
+    seen : the Bragg layers at each pixel's own cosine; None where there are none.
     """
     a, b = light.dfg_a[:, None], light.dfg_b[:, None]
     layers = layered_reflectances(
@@ -50,9 +49,9 @@ def image_light(
     base = surface.base_color * ((1.0 - passes) * scattered + passes * transmitted)
     reflected = (1.0 - m) * layers.dielectric.specular + m * layers.metal
     sent = (1.0 - m) * base + reflected * light.reflected_radiance
-    if plan.layers is not None and of_layers is not None:
+    if seen is not None:
         share = surface.bragg_factor[:, None]
-        sent = (1.0 - share) * sent + share * image_on_layers(surface, light, plan.layers, of_layers)
+        sent = (1.0 - share) * sent + share * image_on_layers(surface, light, plan, seen)
     return _under_sheen(surface, light, sent)
 
 

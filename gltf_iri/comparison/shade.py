@@ -13,12 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.baking.layer_lookup import ImageColours
 from gltf_iri.comparison.image_light import image_light, under_clearcoat
+from gltf_iri.comparison.layer_light import seen_layers
 from gltf_iri.comparison.pixels import ImageLight
-from gltf_iri.optics.layer_stack import cosine_in_host
 from gltf_iri.planning.effects import Effect
-from gltf_iri.planning.layer_plan import LayersPlan
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.direct import punctual_lighting
 from gltf_iri.reference.film_on import Facets, FilmMethod, FilmOn
@@ -39,8 +37,8 @@ class Shading:
 
     rgb : (n, 3) linear colour.
     film : (n, k, 3) the film's own reflectance at N·V, strength 1, metal and dielectric mixed by metalness,
-        k = 1; or the colours of each Bragg layer, seen along N, and of what passes them, k = layers + 1. 0
-        where there is neither (`has_film` is False).
+        k = 1; or the colours of Bragg layers (`SeenLayers.colours`). 0 where there is neither (`has_film` is
+        False).
     white : the film's; empty where no film was evaluated.
     """
 
@@ -81,9 +79,8 @@ def shade(
     filmed = own_film
     if facets is not None:
         filmed = film_reflectances(surface, plan, film, surface.n_dot_v, image.is_there, facets)
-    seen = None if plan.layers is None or layers is None else _seen(surface, plan.layers, layers)
-    of_image = None if seen is None else seen.image
-    sent = surface.emission + image_light(surface, image, plan, filmed, of_image)
+    seen = None if layers is None else seen_layers(surface, plan, layers)
+    sent = surface.emission + image_light(surface, image, plan, filmed, seen)
     rgb = under_clearcoat(surface, image, sent)
     rgb += punctual_lighting(surface, lights, film, plan)
     share = surface.metallic[:, None]
@@ -91,19 +88,3 @@ def shade(
     if seen is not None:
         return Shading(rgb, seen.colours, surface.bragg_factor > 0.0, "", {})
     return Shading(rgb, own[:, None], film.has_film, film.white, film.undefined)
-
-
-@dataclass(frozen=True, slots=True)
-class _SeenLayers:
-    colours: Float64  # (n, layers + 1, 3)
-    image: ImageColours
-
-
-def _seen(surface: Surface, plan: LayersPlan, layers: LayersMethod) -> _SeenLayers:
-    """Return the layers as mirrors see them along N, light and viewer at N·V, and under image light."""
-    colours = layers(surface.bragg_period_texel)
-    cosine = cosine_in_host(plan.host_ior, surface.n_dot_v)
-    own = [colours.reflected(layer, cosine, cosine, cosine) for layer in range(len(plan.layers))]
-    if plan.under == "base":
-        own.append(colours.passed(cosine, cosine))
-    return _SeenLayers(np.stack(own, axis=1), colours.image(cosine, surface.perceptual_roughness))

@@ -33,6 +33,21 @@ Float64 = NDArray[np.float64]
 SINGLE = "optics/layers_single.glsl"
 CHUNK = 10_000
 
+# Beside PROBES: what crosses each layer once, at the viewer's cosine.
+CROSSED = """
+vec3 crossed_1(float host, vec3 c, vec3 a, vec3 b) {
+    BraggLayer stack[BRAGG_LAYERS_MAX];
+    stack[0] = given(a, b);
+    return stack_entering(host, stack, 1, c.z);
+}
+vec3 crossed_2(float host, vec3 c, vec3 a, vec3 b, vec3 a2, vec3 b2) {
+    BraggLayer stack[BRAGG_LAYERS_MAX];
+    stack[0] = given(a, b);
+    stack[1] = given(a2, b2);
+    return stack_entering(host, stack, 2, c.z);
+}
+""".strip().splitlines()
+
 
 def three_wavelengths(g: np.random.Generator) -> tuple[ColourRule, ColourRule]:
     """A coarse rule of one wavelength a channel, which no average helps, and a fine one of nine."""
@@ -125,10 +140,12 @@ def test_the_tables_that_are_drawn_with_hold_the_rules_that_python_has(
     for name, expected in (
         ("reflected_2", python.reflected(1, sight.cos_h, sight.cos_i, sight.cos_o)),
         ("passed_2", python.passed(sight.cos_i, sight.cos_o)),
+        ("crossed_2", python.entering(sight.cos_o)),
         ("reflected_1", python.reflected(0, sight.cos_h, sight.cos_i, sight.cos_o)),
     ):
         given = case.colour_arguments()[: 4 if name == "reflected_1" else None]
-        found = probe.call(name, f"optics/{method}.glsl", given, lines=PROBES, tables=tables)
+        lines = (*PROBES, *CROSSED)
+        found = probe.call(name, f"optics/{method}.glsl", given, lines=lines, tables=tables)
         error = np.abs(found - expected).max()
         record_property("measured", f"{method}, {name}: {error:.1e}")
         assert error <= GLSL_LAYERS_MAX_ABS
@@ -162,12 +179,13 @@ def test_glsl_layers_multiply_the_colours_of_every_mirror_method(
     for name, expected, bound in (
         ("reflected_1", colour(sight.cos_h[:, None])[:, 0], max(GLSL_LAYERS_MAX_ABS, GLSL_BLOCH_MAX_ABS)),
         ("passed_1", through[0] * through[1], GLSL_LAYERS_MAX_ABS),
+        ("crossed_1", through[1], GLSL_LAYERS_MAX_ABS),
     ):
         found = probe.call(
             name,
             "optics/layers_rgb.glsl",
             case.colour_arguments(),
-            lines=PROBES,
+            lines=(*PROBES, *CROSSED),
             tables=tables,
             defines=(find_method(method, "mirror").define,),
         )

@@ -16,6 +16,8 @@ from gltf_iri.material.material import Material, MetallicRoughness
 from gltf_iri.material.sheen import Sheen
 from gltf_iri.material.specular import Specular
 from gltf_iri.material.texture import NormalTextureInfo, OcclusionTextureInfo, TextureInfo
+from gltf_iri.material.transmission import Transmission
+from gltf_iri.material.volume import Volume
 from gltf_iri.planning.decide import plan_material, plan_materials
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.permutation import permutation
@@ -108,6 +110,22 @@ def test_layers_of_factor_1_leave_the_plain_surface_out():
     assert {"light_on_base", "light_on_layers"} <= words(half)
 
 
+@pytest.mark.parametrize("lights", [(), LIT])
+@pytest.mark.parametrize("volume", [None, Volume(0.5)])
+def test_light_from_behind_brings_what_crosses_layers_once_and_no_interface_below_them(lights, volume):
+    glass = layered(LAYER, LAYER, transmission=Transmission(1.0), volume=volume)
+    found = words(glass, lights=lights)
+    assert {"layers_entering", "passed_from_behind", "transmitted_radiance"} <= found
+    assert not {"mix_lobes", "dielectric_layer", "transmitted_share", "light_on_base"} & found
+    # Lights of a point draw caustics through a body.
+    assert ("light_from_behind" in found) == (volume is None and bool(lights))
+    half = replace(glass, bragg=replace(glass.bragg, factor=0.5))
+    assert {"layers_entering", "mix_lobes"} <= words(half, lights=lights)
+    black = replace(glass, pbr=BLACK)
+    assert not {"layers_entering", "passed_from_behind"} & words(black, lights=lights)
+    assert "layers_entering" not in words(layered(LAYER), lights=lights)
+
+
 def test_what_belongs_to_the_surface_below_is_left_out_and_listed_as_pruned():
     material = layered(LAYER, specular=Specular(0.5, T), anisotropy=Anisotropy(0.5, texture=T))
     plan = plan_material(material, 0)
@@ -139,7 +157,9 @@ def test_layers_compile_under_every_kind_of_light(gl_context, tmp_path):
 
     store = ProgramStore(gl_context)
     coated = load(bragg_ball(tmp_path, "coated")).materials
-    for plan in (*plan_materials(coated), plan_material(layered(LAYER, LAYER, clearcoat=Clearcoat(1.0)), 0)):
+    many = layered(LAYER, LAYER, clearcoat=Clearcoat(1.0))
+    glass = replace(many, transmission=Transmission(1.0), pbr=replace(PAINT, metallic_factor=0.5))
+    for plan in (*plan_materials(coated), plan_material(many, 0), plan_material(glass, 0)):
         for lights in ((), LIT[:1], LIT[1:]):
             for switches in ((), (SHADING_INPUTS,), (LAYER_INPUTS,), (BRAGG_INPUTS,)):
                 assert store.get(permutation(plan, (), lights) + switches)
