@@ -1,0 +1,112 @@
+"""Extensions that must not stand on the same object: named on both sides, and nowhere contradicted."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Final
+
+from gltf_iri.proposal.bounds import MAX_SIBLINGS
+from gltf_iri.proposal.finding import Finding
+from gltf_iri.proposal.folder import Proposal, read_readme
+from gltf_iri.proposal.markdown import Block, Markdown
+from gltf_iri.proposal.naming import EXTENSION_NAME
+
+__all__ = ["contradictions", "reciprocity"]
+
+_EXCLUSIONS: Final = re.compile(r"exclusions?\b", re.IGNORECASE)
+_TOGETHER: Final = re.compile(
+    r"interact|combin|defined with|other extensions|together with|dependenc", re.IGNORECASE
+)
+_FORBIDS: Final = re.compile(
+    r"exclu|\bnot\b|\bnever\b|\bcannot\b|\bundefined\b|\bforbid|\bignored?\b|\binstead\b|\brather\b|\bno\b",
+    re.IGNORECASE,
+)
+# Khronos' own: published, so another proposal cannot change what their READMEs say.
+_PUBLISHED: Final = "KHR_"
+
+
+def _excluded(readme: Markdown, name: str) -> dict[str, Block]:
+    """Return the extensions that a README's section on exclusions names, each with its first block."""
+    found: dict[str, Block] = {}
+    for block in readme.blocks:
+        if any(_EXCLUSIONS.match(heading.text) for heading in block.headings):
+            for other in EXTENSION_NAME.findall(block.text):
+                if other != name:
+                    found.setdefault(other, block)
+    return found
+
+
+def reciprocity(proposal: Proposal) -> Iterator[Finding]:
+    """Whom the README excludes excludes it too, as far as the folders beside it tell."""
+    readme = proposal.readme
+    if readme is None:
+        return
+    excluded = _excluded(readme, proposal.name)
+    beside = dict(_siblings(proposal))
+    for other, block in excluded.items():
+        where = readme.at(block.line)
+        theirs = beside.get(other)
+        if theirs is not None and proposal.name in _excluded(theirs, other):
+            continue
+        if other.startswith(_PUBLISHED):
+            told = f"{other} must be asked to exclude {proposal.name} in turn"
+            yield Finding("exclusion-to-propose", told, where)
+        elif theirs is None:
+            told = f"whether {other} excludes {proposal.name} in turn is not known here"
+            yield Finding("exclusion-unverified", told, where)
+        else:
+            told = f"{other} does not exclude {proposal.name} in turn"
+            yield Finding("exclusion-one-sided", told, where)
+    for other, theirs in beside.items():
+        if proposal.name in _excluded(theirs, other) and other not in excluded:
+            told = f"{other} excludes {proposal.name}, which does not exclude it in turn"
+            yield Finding("exclusion-unanswered", told, readme.name)
+
+
+def _siblings(proposal: Proposal) -> Iterator[tuple[str, Markdown]]:
+    """Yield the READMEs of the extensions in the folders beside this one."""
+    root = proposal.folder.parent
+    try:
+        folders = sorted(path for path in root.iterdir() if EXTENSION_NAME.fullmatch(path.name))
+    except OSError:  # the folder above may be closed to us
+        return
+    for folder in folders[:MAX_SIBLINGS]:
+        if folder.name == proposal.name or folder.is_symlink() or not folder.is_dir():
+            continue
+        try:
+            readme, _ = read_readme(root, folder)
+        except OSError:
+            continue
+        if readme is not None:
+            yield folder.name, readme
+
+
+def contradictions(proposal: Proposal) -> Iterator[Finding]:
+    """Nothing that is excluded is spoken of as working together, or as needed, elsewhere."""
+    readme = proposal.readme
+    if readme is None:
+        return
+    excluded = _excluded(readme, proposal.name)
+    told_of = set()
+    for position, block in enumerate(readme.blocks):
+        if any(_EXCLUSIONS.match(heading.text) for heading in block.headings):
+            continue
+        if not any(_TOGETHER.search(heading.text) for heading in block.headings):
+            continue
+        for other in EXTENSION_NAME.findall(block.text):
+            if other in excluded and other not in told_of and not _FORBIDS.search(_said(readme, position)):
+                told_of.add(other)
+                told = (
+                    f"{other} is excluded in line {excluded[other].line}, and here it is not: say which holds"
+                )
+                yield Finding("exclusion-contradicted", told, readme.at(block.line))
+
+
+def _said(readme: Markdown, position: int) -> str:
+    """Return a block's text; of a heading, all that stands under it."""
+    block = readme.blocks[position]
+    if not (block.headings and block.headings[-1].line == block.line):
+        return block.text
+    under = [b.text for b in readme.blocks[position + 1 :] if block.headings[-1] in b.headings]
+    return " ".join(under)
