@@ -23,6 +23,7 @@ from gltf_iri.comparison.result import Comparison, MaterialResult, PictureResult
 from gltf_iri.comparison.shade import shade
 from gltf_iri.comparison.truth import averaged_truth
 from gltf_iri.errors import AssetError, UsageError
+from gltf_iri.material.bragg import Bragg
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import Material
 from gltf_iri.planning.effects import Effect
@@ -119,10 +120,8 @@ def _judge_material(
         layers = layers_method(plan, None, shot.layer_tables, shot.white)
         mine = shade(surface, image, plan, film_ior, shot.lights, method, layers)
     except UsageError as error:  # legal in glTF, but no film: 10^30 nm
-        what = str(error).rstrip(".")
-        raise AssetError(
-            what, pointer=f"/materials/{plan.index}/extensions/{Iridescence.EXTENSION}"
-        ) from None
+        what, extension = str(error).rstrip("."), (Bragg if plan.layers else Iridescence).EXTENSION
+        raise AssetError(what, pointer=f"/materials/{plan.index}/extensions/{extension}") from None
     pictures.python[mask] = mine.rgb
     left_out = _left_out(mine.undefined, mine.rgb, pictures.glsl[mask])
     compared[mask] = ~left_out

@@ -57,16 +57,31 @@ def report_html(comparison: Comparison, images: dict[str, bytes]) -> str:
     """
     template = load_template(Path(__file__).parent / "templates" / "report.html.j2", _figure)
     uris = {name: "data:image/png;base64," + base64.b64encode(data).decode() for name, data in images.items()}
+    what = _what(comparison)
     return template.render(
         report=comparison.to_json(),
         images=uris,
-        whites={m.plan.method: m.method_white for m in comparison.materials if m.method_white is not None},
+        what=what,
+        nothing=f"no {what}",
+        whites={
+            m.plan.method if m.plan.layers is None else m.plan.layers.method: m.method_white
+            for m in comparison.materials
+            if m.method_white is not None
+        },
         # What the file does not even mention stays in the JSON; people want what was decided against.
         left_out=[
             {effect.value: reason for effect, reason in m.plan.skipped.items() if effect not in m.plan.absent}
             for m in comparison.materials
         ],
     )
+
+
+def _what(comparison: Comparison) -> str:
+    """Return what of the materials is held against truth: films, Bragg layers, or both."""
+    plans = [material.plan for material in comparison.materials]
+    if all(plan.layers is None for plan in plans):
+        return "film"
+    return "layers" if all(plan.method is None for plan in plans) else "film or layers"
 
 
 def _figure(value: float | None) -> str:

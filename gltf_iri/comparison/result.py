@@ -39,13 +39,13 @@ class Split:
 
 @dataclass(frozen=True, slots=True)
 class MaterialResult:
-    """One material on the picture; errors against truth are None where it has no film."""
+    """One material on the picture; errors against truth are None where it has neither film nor layers."""
 
     plan: MaterialPlan
     glsl_vs_python: Split
     method_white: str | None
     truth_white: str | None
-    method_vs_truth: ColourError | None  # the film's reflectance alone, at the pixels' N·V
+    method_vs_truth: ColourError | None  # `Shading.film` alone, at the pixels' N·V
     picture_vs_truth: ColourError | None  # the shaded pixels, after exposure, before tone mapping
     eight_bit_textures: ColourError | None  # GLSL with 8-bit textures against GLSL with float ones
     undefined: Mapping[str, int]  # pixels that each undefined case of the method's text touched

@@ -122,8 +122,8 @@ def test_python_shades_the_pixels_as_glsl_does_and_the_report_tells_of_the_layer
     jsonschema.Draft202012Validator(schema).validate(comparison.to_json())
     names = ("glsl", "python", "truth", "difference_glsl_python", "difference_method_truth")
     page = report_html(comparison, dict.fromkeys(names, b""))
-    assert "layers-bands" in page
-    assert "no film" not in page
+    assert "layers-bands: D65" in page and "None: D65" not in page
+    assert "Layers against truth" in page and "film" not in page.lower()
 
 
 def test_under_a_coating_pixels_are_reported_and_not_judged(compared):
