@@ -26,9 +26,9 @@ GLASSES: Final = {"blue mirror": 0.76, "green mirror": 1.0, "red mirror": 1.25}
 
 # Half of what each mirrors face on, linear Rec.709 under D65, cut off at 0 and 1.
 FALLBACK_F0: Final = {
-    "blue mirror": (0.0, 0.12, 0.5),
-    "green mirror": (0.44, 0.5, 0.17),
-    "red mirror": (0.5, 0.1, 0.008),
+    "blue mirror": (0.018, 0.128, 0.5),
+    "green mirror": (0.428, 0.5, 0.167),
+    "red mirror": (0.5, 0.095, 0.012),
 }
 
 _RADIUS_M, _HEIGHT_M, _ARC_RAD, _APART_M = 0.055, 0.11, 1.5, 0.092

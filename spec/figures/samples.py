@@ -18,7 +18,14 @@ ROOT = Path(__file__).resolve().parents[2]
 SIZE = (480, 360)  # pixels
 OVERSAMPLED = 2  # fine normals sparkle at one shaded sample a pixel
 
-ASSETS = ("soap-bubble/soap-bubble.glb", "beetle/beetle.glb", "anodised-ramp/anodised-ramp.gltf")
+ASSETS = (
+    "soap-bubble/soap-bubble.glb",
+    "beetle/beetle.glb",
+    "anodised-ramp/anodised-ramp.gltf",
+    "jewel-beetle/jewel-beetle.glb",
+    "opal/opal.glb",
+    "dichroic-mirror/dichroic-mirror.gltf",
+)
 
 
 def draw(asset: str) -> NDArray[np.uint8]:
