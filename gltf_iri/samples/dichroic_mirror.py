@@ -38,14 +38,13 @@ _WALL_M, _WALL_AT, _FIELDS = (0.46, 0.26), (0.0, 0.0, -0.035), (23, 13)
 def build() -> Sample:
     """Build the asset."""
     builder = GLTFBuilder("dichroic-mirror")
-    fields = np.indices(_FIELDS[::-1]).sum(axis=0) % 2
-    checker = np.where(fields, 235, 60).astype(np.uint8)  # sRGB
+    checker = np.array([[60, 235], [235, 60]], dtype=np.uint8)  # sRGB
     wall = builder.material(
         "wall",
         base_color=(1.0, 1.0, 1.0),
         metallic=0.0,
         roughness=0.9,
-        base_color_texture=builder.texture("checker", encode_png(checker), nearest=True),
+        base_color_texture=builder.texture("checker", encode_png(checker), nearest=True, repeat=True),
         extensions={},
     )
     builder.mesh("wall", _wall(), wall, translation_m=_WALL_AT)
@@ -108,7 +107,8 @@ def _wall() -> Shape:
     positions = np.stack([(u - 0.5) * width, (0.5 - v) * height, np.zeros_like(u)], axis=-1)
     normals = np.broadcast_to((0.0, 0.0, 1.0), positions.shape)
     along = np.broadcast_to((1.0, 0.0, 0.0), positions.shape)
-    return grid(positions, normals, along, np.stack([u, v], axis=-1))
+    uvs = np.stack([u * _FIELDS[0] / 2.0, v * _FIELDS[1] / 2.0], axis=-1)
+    return grid(positions, normals, along, uvs)
 
 
 def _pane() -> Shape:
