@@ -69,12 +69,16 @@ def needs_products(plan: LayersPlan) -> bool:
     return len(plan.layers) > 1 or plan.under == "base"
 
 
-def fit_layer_tables(plan: LayersPlan, budget: float, *, white: White = "D65") -> LayerFit:
+def fit_layer_tables(
+    plan: LayersPlan, budget: float, *, white: White = "D65", is_crossed: bool = False
+) -> LayerFit:
     """Return the smallest tables found, of as few bands as do, whose p95 of CIEDE2000 keeps `budget`.
 
     `delta_e` of the tables is a number that the p95 against single reflections lies below at other poses:
     of each layer's reflection through those above, and of what passes all. What the samples' own spectra are
     off by `layers-single`, at a few of them, is in it.
+
+    is_crossed : light from behind passes all layers once, and that colour is judged too.
 
     Raises UsageError for a budget of 0 or less, and for layers whose fringes are too fine to be judged.
     """
@@ -87,10 +91,12 @@ def fit_layer_tables(plan: LayersPlan, budget: float, *, white: White = "D65") -
             " so fine cannot be judged. Leave the budget out, or ask for 0, the truth itself."
         )
     texels, poses = _CHECKED
-    checked = sampled_layers(plan, white, texels=texels, poses=poses, seed=2, bands=())
+    checked = sampled_layers(plan, white, texels=texels, poses=poses, seed=2, bands=(), is_crossed=is_crossed)
     doubt = doubt_of(plan, checked, white)
     texels, poses = _MEASURED
-    seen = sampled_layers(plan, white, texels=texels, poses=poses, seed=1, bands=choices)
+    seen = sampled_layers(
+        plan, white, texels=texels, poses=poses, seed=1, bands=choices, is_crossed=is_crossed
+    )
     best, target = np.inf, _AIMED_AT * budget - doubt
     for bands in choices:
         alone = p95_guess(seen.by_bands[bands], seen.truth)
@@ -117,6 +123,8 @@ def lookup_terms(baked: BakedLayers, samples: LayerSamples) -> Terms:
     terms = [found.reflected(number, *cosines) for number in range(len(baked.plan.layers))]
     if baked.plan.under == "base":
         terms.append(found.passed(samples.cos_i, samples.cos_o))
+    if samples.is_crossed:
+        terms.append(found.entering(samples.cos_o))
     return tuple(terms)
 
 

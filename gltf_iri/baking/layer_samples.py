@@ -43,7 +43,8 @@ _POSES_AT_ONCE: Final = 256  # bounds memory: each has some spectra of up to 819
 # Of 1024 samples so many lie below what surely lies above 0.95 of all.
 _BOUND_SHARE: Final = 0.97
 
-# Colours (n, 3): each layer's reflection, outermost first, and at the end what passes all, over a base.
+# Colours (n, 3): each layer's reflection, outermost first; then, over a base, what passes all both ways, and,
+# where light from behind crosses the layers, what passes all once, towards the viewer.
 Terms = tuple[Float64, ...]
 
 
@@ -51,7 +52,8 @@ Terms = tuple[Float64, ...]
 class LayerSamples:
     """n poses, with cosines in the host and values of the texture of periods.
 
-    truth : of single reflections; by_bands : what so many bands make of it without any table.
+    truth : of single reflections; by_bands : what so many bands make of it without any table; is_crossed :
+    whether what passes all layers once is among both.
     """
 
     texel: Float64
@@ -60,6 +62,7 @@ class LayerSamples:
     cos_o: Float64
     truth: Terms
     by_bands: dict[int, Terms]
+    is_crossed: bool = False
 
 
 def p95_below(found: Terms, truth: Terms) -> float:
@@ -88,12 +91,21 @@ def doubt_of(plan: LayersPlan, samples: LayerSamples, white: White) -> float:
     terms = [exact.reflected(number, *cosines) for number in range(len(plan.layers))]
     if plan.under == "base":
         terms.append(exact.passed(*cosines[1:]))
+    if samples.is_crossed:
+        terms.append(exact.entering(cosines[2]))
     errors = (delta_e_2000(a, b[some]) for a, b in zip(terms, samples.truth, strict=True))
     return max(float(each.max()) for each in errors)
 
 
 def sampled_layers(
-    plan: LayersPlan, white: White, *, texels: int, poses: int, seed: int, bands: Sequence[int]
+    plan: LayersPlan,
+    white: White,
+    *,
+    texels: int,
+    poses: int,
+    seed: int,
+    bands: Sequence[int],
+    is_crossed: bool = False,
 ) -> LayerSamples:
     """Return `texels` · `poses` samples, poses alone where no period varies.
 
@@ -101,6 +113,7 @@ def sampled_layers(
     over its span.
 
     bands : numbers of them that are wanted, COLOURS among them.
+    is_crossed : light from behind is wanted too.
     """
     g = np.random.default_rng(seed)
     groups, each = (texels, poses) if plan.varies else (1, texels * poses)
@@ -133,7 +146,14 @@ def sampled_layers(
                 for where, cosine in zip(stand, (sight.cos_i, sight.cos_o), strict=True)
             ]
             parts.append(
-                _colours(facets, sight.cos_h[group, some], ways, weighings, has_base=plan.under == "base")
+                _colours(
+                    facets,
+                    sight.cos_h[group, some],
+                    ways,
+                    weighings,
+                    has_base=plan.under == "base",
+                    is_crossed=is_crossed,
+                )
             )
     return LayerSamples(
         np.repeat(at, each),
@@ -142,6 +162,7 @@ def sampled_layers(
         sight.cos_o.reshape(-1),
         _joined([truth for truth, _ in parts]),
         {b: _joined([found[b] for _, found in parts]) for b in bands},
+        is_crossed,
     )
 
 
@@ -189,6 +210,7 @@ def _colours(
     weighings: Mapping[int, Weighing],
     *,
     has_base: bool,
+    is_crossed: bool,
 ) -> tuple[Terms, dict[int, Terms]]:
     """Return the truth, and what each weighing makes of it; `ways` : of light and viewer, for `passed`."""
     count = len(cos_h)
@@ -206,17 +228,22 @@ def _colours(
             found[b].append(part @ weighing.weights)
 
     through, means_through = np.ones((count, 1)), np.ones((count, shares.shape[1]))
+    once, means_once = through, means_through
     for number, each in enumerate(facets):
         reflected = each.reflected(cos_h)
         put(reflected * through, (reflected @ shares) * means_through)
-        if number == len(facets) - 1 and not has_base:
+        if number == len(facets) - 1 and not (has_base or is_crossed):
             break
-        for where, cosine in ways:
+        for way, (where, cosine) in enumerate(ways):
             passed = each.passed(where, cosine)
-            through = through * passed
-            means_through = means_through * (passed @ shares)
+            means = passed @ shares
+            through, means_through = through * passed, means_through * means
+            if way == 1 and is_crossed:
+                once, means_once = once * passed, means_once * means
     if has_base:
         put(through, means_through)
+    if is_crossed:
+        put(once, means_once)
     # Nothing attenuates the first layer's reflection, whose colour is kept.
     return tuple(truth), {b: (truth[0], *terms[1:]) for b, terms in found.items()}
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from gltf_iri.baking.layer_resolution import fit_layer_tables
-from gltf_iri.budgets.search import check_budget, figure
+from gltf_iri.budgets.search import UnkeptBudgetError, check_budget, figure
 from gltf_iri.colour.spaces import WHITES, Light
 from gltf_iri.errors import UsageError
 from gltf_iri.planning.costs import Device, shipped_costs
@@ -30,17 +30,22 @@ _OF_BANDS: Final = re.compile(r"table of (\d+) bands")
 
 @dataclass(frozen=True, slots=True)
 class AskedOfLayers:
-    """What the layers of one material are wanted for: the budget, on what, under which white."""
+    """What the layers of one material are wanted for: the budget, on what, under which white.
+
+    is_crossed : their base lets light through, which crosses all layers once: that colour is judged too.
+    """
 
     budget: float
     device: Device = "glsl"
     white: str | Light = "D65"
+    is_crossed: bool = False
 
 
 def choose_layers(plan: LayersPlan, asked: AskedOfLayers, subject: str) -> LayersPlan:
     """Return `plan` with the cheapest tables that keep the budget, the truth's method for a budget of 0.
 
-    subject : stands in the error. Raises UsageError for a budget below 0 or NaN, and where no tables keep it.
+    subject : stands in the error. Raises UsageError for a budget below 0 or NaN, and UnkeptBudgetError where
+    no tables keep it.
     """
     budget = check_budget(asked.budget)
     if budget == 0.0:
@@ -60,11 +65,17 @@ def choose_layers(plan: LayersPlan, asked: AskedOfLayers, subject: str) -> Layer
             f"Tables of layers are filled under {' or '.join(WHITES)}; ask for 0, the truth itself."
         )
     # What no tables keep is asked for all the same, so that the error names the best.
-    fit = fit_layer_tables(plan, max(budget - floor, 0.5 * budget), white=asked.white)
+    aim = max(budget - floor, 0.5 * budget)
+    try:
+        fit = fit_layer_tables(plan, aim, white=asked.white, is_crossed=asked.is_crossed)
+    except UsageError as error:  # their fringes are too fine to be judged
+        raise UnkeptBudgetError(f"No ΔE {budget:g} can be promised", subject, f"{error}") from None
     if fit.tables is None or fit.tables.delta_e + floor > budget:
-        raise UsageError(
-            f"No tables of layers keep ΔE {budget:g} for {subject}: the best err by about {figure(fit.best)}."
-            " Ask for more, or for 0, the truth itself."
+        raise UnkeptBudgetError(
+            f"No tables of layers keep ΔE {budget:g}",
+            subject,
+            f"the best err by about {figure(fit.best)}. Ask for more, or for 0, the truth itself.",
+            fit.best,
         )
     tables = fit.tables
     ns, delta_e = layer_table_ns(plan, tables, asked.device), tables.delta_e + floor

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from gltf_iri.budgets.choose import Asked, choose_way
 from gltf_iri.budgets.layers import AskedOfLayers, choose_layers
-from gltf_iri.budgets.search import Chosen, check_budget
+from gltf_iri.budgets.search import Chosen, UnkeptBudgetError, check_budget
 from gltf_iri.colour.spaces import Light
 from gltf_iri.material.material import Material
 from gltf_iri.planning.bragg import period_texel
@@ -29,6 +29,12 @@ if TYPE_CHECKING:
 
 __all__ = ["plan_within", "plans_within"]
 
+T = TypeVar("T", Chosen, LayersPlan)
+
+# What materials of equal films, or of equal layers, were given: a choice, or why there is none.
+FilmChoices = dict[tuple[Reach, Asked], Chosen | UnkeptBudgetError]
+LayerChoices = list[tuple[LayersPlan, AskedOfLayers, LayersPlan | UnkeptBudgetError]]
+
 
 def plans_within(
     model: Model,
@@ -40,6 +46,7 @@ def plans_within(
     white: str | Light = "D65",
     device: Device = "glsl",
     with_unused: bool = False,
+    unkept: dict[int, UnkeptBudgetError] | None = None,
     advance: Callable[[], None] = lambda: None,
 ) -> tuple[MaterialPlan, ...]:
     """Return the plan of each material of `model` with the cheapest way to its colours that keeps `budget`.
@@ -50,16 +57,19 @@ def plans_within(
     scene : its lights and its vertices' colours count, and materials that it does not use get no way unless
         `with_unused`; None where there is none.
     size_pixels : each pixel is wanted once for every light and for the image light.
+    unkept : where given, receives why nothing keeps the budget for a material, by its index; the material is
+        then planned as without a budget.
     advance : called after each material.
 
-    Raises UsageError for a budget below 0 or NaN, and where nothing keeps it for a material.
+    Raises UsageError for a budget below 0 or NaN, and without `unkept` UnkeptBudgetError of the first
+    material for which nothing keeps it.
     """
     check_budget(budget)
     used = None if scene is None or with_unused else {each.material for each in scene.primitives}
     met = {} if scene is None else vertex_colour_spans(scene)
     lamps = 0 if scene is None else sum(shines(light) for light in scene.lights)
-    chosen: dict[tuple[Reach, Asked], Chosen] = {}
-    layers: list[tuple[LayersPlan, LayersPlan]] = []
+    films: FilmChoices = {}
+    layers: LayerChoices = []
     plans = []
     for index, material in enumerate(model.materials):
         if used is not None and index not in used:
@@ -68,17 +78,17 @@ def plans_within(
             asked = Asked(
                 budget, size_pixels * max(lamps + has_image_light, 1), device, white, has_image_light
             )
-            plans.append(
-                plan_within(
-                    material,
-                    index,
-                    asked,
-                    model.document,
-                    met.get(index),
-                    already_chosen=chosen,
-                    chosen_layers=layers,
+            textures = model.document, met.get(index)
+            try:
+                plan = plan_within(
+                    material, index, asked, *textures, already_chosen=films, chosen_layers=layers
                 )
-            )
+            except UnkeptBudgetError as error:
+                if unkept is None:
+                    raise
+                unkept[index] = error
+                plan = _without_budget(material, index, *textures)[0]
+            plans.append(plan)
         advance()
     return tuple(plans) if scene is None else complete_plans(plans, scene)
 
@@ -90,8 +100,8 @@ def plan_within(
     document: Document | None = None,
     vertex_colours: ColourSpans | None = None,
     *,
-    already_chosen: dict[tuple[Reach, Asked], Chosen] | None = None,
-    chosen_layers: list[tuple[LayersPlan, LayersPlan]] | None = None,
+    already_chosen: FilmChoices | None = None,
+    chosen_layers: LayerChoices | None = None,
 ) -> MaterialPlan:
     """Return the plan of one material with the cheapest way to its film or layers that keeps `asked.budget`.
 
@@ -100,19 +110,13 @@ def plan_within(
 
     Raises UsageError as `choose_way` and `choose_layers`.
     """
-    drawn, folded = (material, {}) if document is None else simplified(material, document)
-    reach = material_reach(drawn, document, vertex_colours)
-    plan = plan_material(drawn, index, reach=reach, texel=period_texel(drawn, document), folded=folded)
-    subject = f"material '{material.name or index}'"
+    plan, reach, folded = _without_budget(material, index, document, vertex_colours)
+    drawn, subject = plan.material or material, f"material '{material.name or index}'"
     if plan.layers is not None:  # on such a material no film is drawn
-        known_layers = [] if chosen_layers is None else chosen_layers
-        found = next((after for before, after in known_layers if before == plan.layers), None)
-        if found is None:
-            found = choose_layers(
-                plan.layers, AskedOfLayers(asked.budget, asked.device, asked.white), subject
-            )
-            known_layers.append((plan.layers, found))
-        return replace(plan, layers=found)
+        is_crossed = plan.layers.under == "base" and plan.calls_for(Effect.TRANSMISSION)
+        of_layers = AskedOfLayers(asked.budget, asked.device, asked.white, is_crossed)
+        known = [] if chosen_layers is None else chosen_layers
+        return replace(plan, layers=_known_layers(plan.layers, of_layers, subject, known))
     if reach is None or not plan.calls_for(Effect.IRIDESCENCE):
         return plan
     asked = replace(
@@ -120,11 +124,46 @@ def plan_within(
         bare_at_grazing=_bare_at_grazing(drawn),
         has_spread=asked.device == "glsl" and plan.calls_for(Effect.IRIDESCENCE_THICKNESS_TEXTURE),
     )
-    known = {} if already_chosen is None else already_chosen
-    if (reach, asked) not in known:
-        known[reach, asked] = choose_way(reach, asked, subject)
-    way = known[reach, asked]
+    way = _known_way(reach, asked, subject, {} if already_chosen is None else already_chosen)
     return plan_material(drawn, index, reach=reach, way=way.way, way_reason=way.reason, folded=folded)
+
+
+def _without_budget(
+    material: Material, index: int, document: Document | None, vertex_colours: ColourSpans | None
+) -> tuple[MaterialPlan, Reach | None, Mapping[Effect, str]]:
+    """Return the plan of `material`, what its film meets, and why some of its textures are left out."""
+    drawn, folded = (material, {}) if document is None else simplified(material, document)
+    reach = material_reach(drawn, document, vertex_colours)
+    texel = period_texel(drawn, document)
+    return plan_material(drawn, index, reach=reach, texel=texel, folded=folded), reach, folded
+
+
+def _known_layers(plan: LayersPlan, asked: AskedOfLayers, subject: str, known: LayerChoices) -> LayersPlan:
+    """Return `choose_layers`, of earlier materials where they asked the same; UnkeptBudgetError likewise."""
+    for layers, already, found in known:
+        if layers == plan and already == asked:
+            return _given(found, subject)
+    try:
+        known.append((plan, asked, choose_layers(plan, asked, subject)))
+    except UnkeptBudgetError as error:
+        known.append((plan, asked, error))
+    return _given(known[-1][-1], subject)
+
+
+def _known_way(reach: Reach, asked: Asked, subject: str, known: FilmChoices) -> Chosen:
+    """Return `choose_way`, of earlier materials where they asked the same; UnkeptBudgetError likewise."""
+    if (reach, asked) not in known:
+        try:
+            known[reach, asked] = choose_way(reach, asked, subject)
+        except UnkeptBudgetError as error:
+            known[reach, asked] = error
+    return _given(known[reach, asked], subject)
+
+
+def _given(found: T | UnkeptBudgetError, subject: str) -> T:
+    if isinstance(found, UnkeptBudgetError):
+        raise found.of(subject)
+    return found
 
 
 def _bare_at_grazing(material: Material) -> float | None:

@@ -14,7 +14,7 @@ from gltf_iri.errors import UsageError
 from gltf_iri.planning.method import METHODS
 from gltf_iri.planning.way import Way
 
-__all__ = ["Chosen", "TableOffer", "cheapest_way", "check_budget", "figure", "the_truth"]
+__all__ = ["Chosen", "TableOffer", "UnkeptBudgetError", "cheapest_way", "check_budget", "figure", "the_truth"]
 
 # Where no table keeps the budget, the least that one does is bracketed: to this ratio, and not below this
 # share of what methods reach, where tables are slow to fit.
@@ -42,6 +42,21 @@ class TableOffer:
     fit: Callable[[float], Way | None]
 
 
+class UnkeptBudgetError(UsageError):
+    """Nothing keeps a budget for one subject; others may be as they are.
+
+    delta_e : the least that its p95 is known to be by any way; None where nobody could say.
+    """
+
+    def __init__(self, what: str, subject: str, why: str, delta_e: float | None = None) -> None:
+        self.what, self.why, self.delta_e = what, why, delta_e
+        super().__init__(f"{what} for {subject}: {why}")
+
+    def of(self, subject: str) -> UnkeptBudgetError:
+        """Return the same of another subject."""
+        return UnkeptBudgetError(self.what, subject, self.why, self.delta_e)
+
+
 def check_budget(budget: float) -> float:
     """Return `budget`; UsageError where it is no finite number of 0 or more."""
     if not 0.0 <= budget < math.inf:
@@ -61,7 +76,7 @@ def cheapest_way(
     """Return the way of least cost for so many `colours` whose error, by `measure`, keeps `budget`.
 
     The cost is ns per colour times colours, and what filling tables costs. `subject` stands in the error:
-    raises UsageError, which names the best that can be reached, where nothing keeps the budget.
+    raises UnkeptBudgetError, which names the best that can be reached, where nothing keeps the budget.
     """
     # Equal costs go by the order in the list, and nothing compares ways.
     queue: list[tuple[float, int, Candidate | TableOffer | Way]] = [
@@ -88,9 +103,12 @@ def cheapest_way(
         if way is not None:
             return Chosen(way, _reason(way, budget, offered, queue))
     best, kept = _best_reachable(candidates, measure, tables, budget)
-    raise UsageError(
-        f"No way keeps ΔE {budget:g} for {subject}: the best is {best.label} with ΔE ≤ "
-        f"{figure(best.delta_e)}. Ask for {figure(kept)} or more, or for 0, the truth itself."
+    raise UnkeptBudgetError(
+        f"No way keeps ΔE {budget:g}",
+        subject,
+        f"the best is {best.label} with ΔE ≤ {figure(best.delta_e)}."
+        f" Ask for {figure(kept)} or more, or for 0, the truth itself.",
+        best.delta_e,
     )
 
 

@@ -11,6 +11,7 @@ from gltf_iri.cli.common import material_label, note, print_table, progress
 
 if TYPE_CHECKING:
     from gltf_iri.baking.baked import BakedTable
+    from gltf_iri.budgets.search import UnkeptBudgetError
     from gltf_iri.planning.costs import Device
     from gltf_iri.planning.material_plan import MaterialPlan
     from gltf_iri.planning.reach import Lobe
@@ -55,8 +56,12 @@ def plan_scene(
     white: str = "D65",
     device: Device = "glsl",
     with_unused: bool = False,
+    unkept: dict[int, UnkeptBudgetError] | None = None,
 ) -> tuple[MaterialPlan, ...]:
-    """Return the plans of `model` for a picture of `size`, by `method` or within `budget`, with progress."""
+    """Return the plans of `model` for a picture of `size`, by `method` or within `budget`, with progress.
+
+    unkept : as in `plans_within`.
+    """
     if budget is None:
         from gltf_iri.planning.decide import plan_materials
 
@@ -75,6 +80,7 @@ def plan_scene(
             white=white,
             device=device,
             with_unused=with_unused,
+            unkept=unkept,
             advance=advance,
         )
 

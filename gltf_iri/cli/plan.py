@@ -21,10 +21,13 @@ from gltf_iri.cli.layers import layer_rows
 from gltf_iri.cli.picture_options import SIZE
 
 if TYPE_CHECKING:
+    from gltf_iri.budgets.search import UnkeptBudgetError
     from gltf_iri.planning.material_plan import MaterialPlan
     from gltf_iri.scene.model import Scene
 
 __all__ = ["command"]
+
+_LISTED_MAX = 8  # materials that the error names
 
 
 @click.command(name="plan")
@@ -46,8 +49,11 @@ def command(
     permutations depend on the geometry too (under image light, as `render` draws unless told otherwise) and
     are listed where the buffers are there. What is saved is told in nanoseconds a pixel that the material
     covers, as `bench accuracy` measured them.
+
+    A material for which nothing keeps the budget is told, with the best that is known, and planned as without
+    one; the exit code is then 2.
     """
-    from gltf_iri.errors import AssetError
+    from gltf_iri.errors import AssetError, UsageError
     from gltf_iri.planning.texels import unread_images
     from gltf_iri.scene.environment import white
     from gltf_iri.scene.load import load
@@ -61,14 +67,24 @@ def command(
     except AssetError as error:
         notes.append(f"The shader permutations are left out: {error}")
         notes.append("Colours of vertices may be any, for all the plan knows.")
-    plans = plan_scene(model, scene, method, budget, size=size, environment=white(), with_unused=True)
+    unkept: dict[int, UnkeptBudgetError] = {}
+    plans = plan_scene(
+        model, scene, method, budget, size=size, environment=white(), with_unused=True, unkept=unkept
+    )
     unread = [
         f"{told} It may hold anything, for all the plan knows." for told in unread_images(model.document)
     ]
     notes += [*model.document.notes, *(() if scene is None else scene.notes), *unread]
     saved = _saved(plans, scene, method)
     if as_json:
-        rows = [{**plan.to_json(), "saved_ns_per_pixel": saved[plan.index]} for plan in plans]
+        rows = [
+            {
+                **plan.to_json(),
+                "budget_unkept": _unkept_json(unkept.get(plan.index)),
+                "saved_ns_per_pixel": saved[plan.index],
+            }
+            for plan in plans
+        ]
         permutations = [] if scene is None else _permutations(scene, {plan.index: plan for plan in plans})
         print_json(
             {
@@ -78,10 +94,22 @@ def command(
                 "notes": list(dict.fromkeys(notes)),
             }
         )
-        return
-    print_table(("material", "", ""), [row for plan in plans for row in _rows(plan, saved[plan.index])])
-    for text in dict.fromkeys(notes):
-        note(text)
+    else:
+        print_table(
+            ("material", "", ""),
+            [row for plan in plans for row in _rows(plan, saved[plan.index], unkept.get(plan.index))],
+        )
+        for text in dict.fromkeys(notes):
+            note(text)
+    if len(unkept) == 1:
+        raise next(iter(unkept.values()))
+    if unkept:
+        labels = ", ".join(material_label(index, plans[index].name) for index in list(unkept)[:_LISTED_MAX])
+        more = f" and {len(unkept) - _LISTED_MAX} more" if len(unkept) > _LISTED_MAX else ""
+        raise UsageError(
+            f"Nothing keeps ΔE {budget:g} for {len(unkept)} of {len(plans)} materials, {labels}{more}:"
+            " the plan tells what comes nearest."
+        )
 
 
 def _saved(
@@ -118,9 +146,17 @@ def _permutations(scene: Scene, plans: Mapping[int, MaterialPlan]) -> list[dict[
     ]
 
 
-def _rows(plan: MaterialPlan, saved: Mapping[str, float]) -> Iterator[Sequence[str]]:
+def _unkept_json(error: UnkeptBudgetError | None) -> Mapping[str, Any] | None:
+    return None if error is None else {"reason": f"{error.what}: {error.why}", "delta_e": error.delta_e}
+
+
+def _rows(
+    plan: MaterialPlan, saved: Mapping[str, float], unkept: UnkeptBudgetError | None
+) -> Iterator[Sequence[str]]:
     label = material_label(plan.index, plan.name)
     yield label, "calls for", ", ".join(effect.value for effect in plan.effects) or "nothing"
+    if unkept is not None:
+        yield "", "budget", f"{unkept.what}: {unkept.why} Planned without it."
     if plan.method is not None:
         yield "", "method", f"{plan.method} ({plan.method_reason})"
         for what, told in way_rows(plan):

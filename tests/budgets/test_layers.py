@@ -111,7 +111,38 @@ def test_periods_that_vary_keep_the_budget_too() -> None:
 
 def test_the_samples_are_those_of_the_truth() -> None:
     plan = replace(TWO, host_ior=1.3, layers=(replace(SHARP, n1=1.3), replace(SOFT, n1=1.3)))
-    assert doubt_of(plan, sampled_layers(plan, "D65", texels=1, poses=64, seed=5, bands=()), "D65") < 0.02
+    samples = sampled_layers(plan, "D65", texels=1, poses=64, seed=5, bands=(COLOURS, 8), is_crossed=True)
+    assert {len(terms) for terms in (samples.truth, *samples.by_bands.values())} == {4}
+    assert doubt_of(plan, samples, "D65") < 0.02
+
+
+def test_what_crosses_all_layers_once_keeps_the_budget_too(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("gltf_iri.baking.layer_resolution._MEASURED", (8, 16))
+    monkeypatch.setattr("gltf_iri.baking.layer_resolution._CHECKED", (16, 16))
+    plan = choose_layers(TWO, AskedOfLayers(3.0, is_crossed=True), "these layers")
+    assert plan.delta_e is not None and plan.delta_e <= 3.0
+    cosine = np.random.default_rng(7).uniform(size=60)
+    exact = layer_colours("layers-single", planned_stack(plan)).entering(cosine)
+    found = LayerLookup(filled_layers(plan, "D65", has_sky=False)).entering(cosine)
+    assert np.quantile(delta_e_2000(found, exact), 0.95) <= plan.delta_e
+
+
+def test_tables_that_only_a_crossing_breaks_are_not_chosen(monkeypatch: pytest.MonkeyPatch) -> None:
+    def grey(_: LayerLookup, cosine: np.ndarray) -> np.ndarray:
+        return np.full((*np.shape(cosine), 3), 0.5)
+
+    monkeypatch.setattr(LayerLookup, "entering", grey)
+    for name, value in {
+        "LAYER_BANDS": (8,),
+        "_MEASURED": (4, 16),
+        "_CHECKED": (8, 16),
+        "_CELLS_MAX": 128,
+    }.items():
+        monkeypatch.setattr(f"gltf_iri.baking.layer_resolution.{name}", value)
+    one = replace(TWO, layers=(SOFT,))
+    assert choose_layers(one, AskedOfLayers(3.0), "them").tables is not None
+    with pytest.raises(UsageError, match="No tables of layers keep ΔE 3 for them"):
+        choose_layers(one, AskedOfLayers(3.0, is_crossed=True), "them")
 
 
 def test_bands_beat_colours() -> None:
