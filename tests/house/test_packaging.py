@@ -65,6 +65,8 @@ def test_wheel_holds_the_package_and_what_it_needs_beside_it_but_no_figures(buil
     names = set(zipfile.ZipFile(built.wheel).namelist())
     needed = [path for path in (ROOT / "shaders").rglob("*") if path.is_file()]
     needed += [path for path in (ROOT / "spec").iterdir() if path.is_file()]
+    proposal = ROOT / "spec" / "EXT_materials_bragg"
+    needed += [proposal / "README.md", *(proposal / "schema").iterdir()]
     shipped = {f"gltf_iri/_shipped/{path.relative_to(ROOT).as_posix()}" for path in needed}
     assert {name for name in names if name.startswith("gltf_iri/_shipped/")} == shipped
     assert "gltf_iri/py.typed" in names
