@@ -9,7 +9,7 @@ OUT := out
 WORKERS ?= 2
 
 .DEFAULT_GOAL := help
-.PHONY: help demo gallery test check samples map clean
+.PHONY: help demo gallery test check samples vectors map clean
 
 help: ## list these targets
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-8s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -34,6 +34,9 @@ check: $(VENV)/.development ## formatting, lint, types, and that no generated fi
 
 samples: $(VENV)/.runtime ## write samples/ anew from gltf_iri/samples
 	$(BIN)/gltf-iri samples samples
+
+vectors: $(VENV)/.development ## write the test vectors in spec/vectors anew, minutes
+	$(BIN)/python -m gltf_iri.conformance spec/vectors
 
 map: $(VENV)/.development $(VENV)/.opengl ## measure the map of cost and error anew, minutes on a quiet machine
 	$(BIN)/gltf-iri bench accuracy -o spec/accuracy

@@ -16,8 +16,8 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 
 # From the door down to the bytes: a folder may import those after it, never those before it.
 ROAD = (
-    *("cli", "gallery", "bench", "comparison", "rendering", "reference", "arrays", "budgets", "baking"),
-    *("evaluation", "planning", "scene", "material", "asset"),
+    *("cli", "gallery", "bench", "conformance", "comparison", "rendering", "reference", "arrays", "budgets"),
+    *("baking", "evaluation", "planning", "scene", "material", "asset"),
 )
 # Open to every folder; these may import each other and nothing of the road.
 GROUND = {"optics", "colour", "compiled", "backends", "errors", "interrupts", "tolerances", "resources"}

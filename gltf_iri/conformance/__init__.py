@@ -1,0 +1,1 @@
+"""Test vectors for implementers: rows of inputs and of what they must give, truth to nine decimals."""
