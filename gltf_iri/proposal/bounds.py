@@ -10,6 +10,7 @@ from gltf_iri.errors import AssetError
 __all__ = [
     "MAX_EXAMPLE_BYTES",
     "MAX_EXPANSION",
+    "MAX_FINDINGS",
     "MAX_OBJECTS",
     "MAX_README_BYTES",
     "MAX_REF_DEPTH",
@@ -39,8 +40,11 @@ MAX_EXPANSION: Final = 4096
 # Objects inside objects that tables and pointers are made for.
 MAX_OBJECTS: Final = 64
 
+# Findings of one rule: who has more has one fault many times, or means to fill the disk.
+MAX_FINDINGS: Final = 200
+
 # Keywords that all validation together may look at; a proposal needs a few thousand.
-MAX_STEPS: Final = 500_000
+MAX_STEPS: Final = 100_000
 
 # jsonschema recurses for each level, some ten Python frames in 2020-12, and compares arrays pairwise.
 _MAX_DEPTH: Final = 40

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
+from gltf_iri.proposal.bounds import MAX_FINDINGS
 from gltf_iri.proposal.finding import Finding, Severity
 from gltf_iri.proposal.folder import README, Proposal, read_proposal
-from gltf_iri.proposal.rules import BLOCKING, RULES, Needs
+from gltf_iri.proposal.rules import BLOCKING, RULES, UNREAD, Needs
 
 __all__ = ["ProposalReport", "check_proposal"]
 
@@ -60,7 +62,11 @@ def check_proposal(folder: Path) -> ProposalReport:
             skipped[rule.name] = reason
         else:
             checked.append(rule.name)
-            findings += [finding for finding in rule.check(proposal) if finding not in findings]
+            found = list(islice(rule.check(proposal), MAX_FINDINGS + 1))
+            if len(found) > MAX_FINDINGS:
+                skipped[rule.name] = f"it has more than {MAX_FINDINGS} findings, and the others are left out"
+            findings += found[:MAX_FINDINGS]
+    findings = list(dict.fromkeys(findings))  # two objects may share a schema and its faults
     return ProposalReport(proposal.name, tuple(findings), tuple(checked), skipped)
 
 
@@ -69,7 +75,8 @@ def _hindrance(proposal: Proposal, findings: list[Finding], needs: Needs) -> str
     if needs in (Needs.README, Needs.BOTH) and proposal.readme is None:
         is_there = any(finding.code == "readme-unreadable" for finding in findings)
         return f"{README} cannot be read" if is_there else f"there is no {README}"
-    blocking = next((f.code for f in findings if f.code in BLOCKING), None)
-    if needs in (Needs.SCHEMAS, Needs.BOTH) and blocking is not None:
+    hindering = {Needs.FILES: UNREAD, Needs.SCHEMAS: BLOCKING, Needs.BOTH: BLOCKING}.get(needs, ())
+    blocking = next((f.code for f in findings if f.code in hindering), None)
+    if blocking is not None:
         return f"the schemas are not sound: {blocking}"
     return ""

@@ -88,13 +88,14 @@ def no_effect(proposal: Proposal) -> Iterator[Finding]:
                 told = f"the factor {shown(owner.name)} has no default"
                 yield Finding("default-missing", told, owner.where)
         acting = [owner for owner in factors if any(n not in harmless for n in _numbers(owner))]
+        is_named = any(_FACTOR.sub("", owner.name) == feature for owner in factors)
         for owner in acting:
             where = owner.file.at(join(owner.pointer, "default"))
             value = shown(owner.schema["default"])
             if _FACTOR.sub("", owner.name) == feature:
                 told = f"with {shown(owner.name)} at {value} by default an empty object changes the material"
                 yield Finding("default-acts", told, where)
-            elif acting == factors:
+            elif acting == factors and not is_named:
                 told = (
                     f"no factor is 0 by default, and {shown(owner.name)} is {value}: is {{}} without effect?"
                 )

@@ -25,13 +25,14 @@ from gltf_iri.proposal.finding import Finding
 from gltf_iri.proposal.folder import Proposal
 from gltf_iri.proposal.word_list import words
 
-__all__ = ["BLOCKING", "RULES", "Needs", "Rule"]
+__all__ = ["BLOCKING", "RULES", "UNREAD", "Needs", "Rule"]
 
 
 class Needs(Enum):
     """What a rule cannot do without."""
 
     NOTHING = "nothing"
+    FILES = "every schema read"
     SCHEMAS = "sound schemas"
     README = "a README"
     BOTH = "sound schemas and a README"
@@ -46,10 +47,12 @@ class Rule:
     check: Callable[[Proposal], Iterable[Finding]]
 
 
+# After one of these while reading, a file that is referred to may be there, but its content is not known.
+UNREAD: Final = words("schema-missing folder-too-large json-broken file-name")
+
 # After one of these, what the schemas say is not known, and every other finding would be about that.
-BLOCKING: Final = words(
-    "schema-missing folder-too-large json-broken draft-missing draft-unknown schema-illegal ref-unresolved "
-    "ref-outside ref-cycle ref-expansion file-name"
+BLOCKING: Final = UNREAD | words(
+    "draft-missing draft-unknown schema-illegal ref-unresolved ref-outside ref-cycle ref-expansion"
 )
 
 RULES: Final[tuple[Rule, ...]] = (
@@ -57,10 +60,10 @@ RULES: Final[tuple[Rule, ...]] = (
     Rule("legal schemas", Needs.NOTHING, legality.legal),
     Rule("keywords", Needs.NOTHING, legality.keywords),
     Rule("identifiers", Needs.NOTHING, legality.identifiers),
-    Rule("references", Needs.NOTHING, references.resolved),
-    Rule("cycles", Needs.NOTHING, references.expansion),
+    Rule("references", Needs.FILES, references.resolved),
+    Rule("cycles", Needs.FILES, references.expansion),
     Rule("extension name", Needs.NOTHING, naming.extension_name),
-    Rule("file names", Needs.NOTHING, naming.file_names),
+    Rule("file names", Needs.FILES, naming.file_names),
     Rule("keywords beside $ref", Needs.SCHEMAS, references.siblings),
     Rule("unused schemas", Needs.SCHEMAS, references.unused),
     Rule("titles", Needs.SCHEMAS, naming.titles),

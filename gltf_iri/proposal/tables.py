@@ -147,7 +147,11 @@ def _compare_default(owner: Property, row: _Row, where: str, names: Sequence[str
     has_default = "default" in owner.schema
     expected = owner.schema.get("default")
     if stated is None:
-        if has_default and (_cell(row, "default") or _cell(row, "required")):
+        if (
+            has_default
+            and owner.kind is not Kind.TEXTURE
+            and (_cell(row, "default") or _cell(row, "required"))
+        ):
             told = f"{owner.name} is {shown_json(expected)} by default in the schema, not stated here"
             yield Finding("table-default-missing", told, where)
         return
