@@ -140,10 +140,10 @@ def test_simulated_paths_reach_the_base_as_often(transmission: str) -> None:
     for cosine in (0.4, 0.9):
         estimate = simulate(
             *(stack, cosine),
-            **{"paths": 60_000, "rng": np.random.default_rng(5), "max_reflections": 1},
+            **{"paths": 20_000, "rng": np.random.default_rng(5), "max_reflections": 1},
             **{"wavelength_nm": rule.wavelength_nm, "weights": rule.weights, "transmission": transmission},
         )
         expected = of_method("layers-single", stack).entering(np.array(cosine))
         reached = estimate.balance["base"]
         assert np.all(np.abs(reached.mean - expected) < 5 * reached.error + 1e-4)
-        assert reached.error.max() < 4e-3
+        assert reached.error.max() < 8e-3
