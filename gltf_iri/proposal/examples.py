@@ -15,6 +15,7 @@ from gltf_iri.asset.words import shown
 from gltf_iri.errors import AssetError
 from gltf_iri.proposal.bounds import MAX_EXAMPLE_BYTES, parse_bounded
 from gltf_iri.proposal.evaluation import Fault, Judge, TooCostlyError
+from gltf_iri.proposal.exclusions import excluded_by
 from gltf_iri.proposal.finding import Finding
 from gltf_iri.proposal.folder import Proposal, scope_of
 from gltf_iri.proposal.library import SchemaFile
@@ -47,11 +48,12 @@ _SCOPES: Final = {
 
 @dataclass(frozen=True)
 class _Found:
-    """An extension object in an example: its place, and the scope that the place gives it, if any."""
+    """An extension object in an example: its place, the scope that this gives it, and what is beside it."""
 
     pointer: str
     scope: str
     value: Any
+    beside: frozenset[str]
 
 
 def examples(proposal: Proposal) -> Iterator[Finding]:
@@ -60,6 +62,7 @@ def examples(proposal: Proposal) -> Iterator[Finding]:
     if readme is None:
         return
     judge = Judge(proposal.library)
+    excluded = excluded_by(readme, proposal.name)
     kinds = {(k.file.name, k.path): k for k in extension_objects(proposal)}
     for fence in readme.fences:
         where = readme.at(fence.line)
@@ -74,6 +77,9 @@ def examples(proposal: Proposal) -> Iterator[Finding]:
             continue
         yield from _declared(proposal, tree, where)
         for found in _extension_objects(tree, proposal.name):
+            for other in sorted(found.beside & excluded.keys()):
+                told = f"an example has {other} beside {proposal.name}, which excludes it"
+                yield Finding("exclusion-contradicted", told, where)
             yield from _judged(proposal, judge, kinds, found, where)
 
 
@@ -144,7 +150,7 @@ def _extension_objects(tree: Any, name: str) -> Iterator[_Found]:
                 below = f"{pointer}/{key}"
                 if key == name:
                     root = "glTF" if pointer == "/extensions" and "asset" in tree else scope
-                    yield _Found(below, root, child)
+                    yield _Found(below, root, child, frozenset(value))
                 elif key == "extensions":
                     waiting.append((below, scope, child))
                 else:

@@ -12,7 +12,7 @@ from gltf_iri.proposal.folder import Proposal, read_readme
 from gltf_iri.proposal.markdown import Block, Markdown
 from gltf_iri.proposal.naming import EXTENSION_NAME
 
-__all__ = ["contradictions", "reciprocity"]
+__all__ = ["contradictions", "excluded_by", "reciprocity"]
 
 _EXCLUSIONS: Final = re.compile(r"exclusions?\b", re.IGNORECASE)
 _TOGETHER: Final = re.compile(
@@ -26,7 +26,7 @@ _FORBIDS: Final = re.compile(
 _PUBLISHED: Final = "KHR_"
 
 
-def _excluded(readme: Markdown, name: str) -> dict[str, Block]:
+def excluded_by(readme: Markdown, name: str) -> dict[str, Block]:
     """Return the extensions that a README's section on exclusions names, each with its first block."""
     found: dict[str, Block] = {}
     for block in readme.blocks:
@@ -42,12 +42,12 @@ def reciprocity(proposal: Proposal) -> Iterator[Finding]:
     readme = proposal.readme
     if readme is None:
         return
-    excluded = _excluded(readme, proposal.name)
+    excluded = excluded_by(readme, proposal.name)
     beside = dict(_siblings(proposal))
     for other, block in excluded.items():
         where = readme.at(block.line)
         theirs = beside.get(other)
-        if theirs is not None and proposal.name in _excluded(theirs, other):
+        if theirs is not None and proposal.name in excluded_by(theirs, other):
             continue
         if other.startswith(_PUBLISHED):
             told = f"{other} must be asked to exclude {proposal.name} in turn"
@@ -59,7 +59,7 @@ def reciprocity(proposal: Proposal) -> Iterator[Finding]:
             told = f"{other} does not exclude {proposal.name} in turn"
             yield Finding("exclusion-one-sided", told, where)
     for other, theirs in beside.items():
-        if proposal.name in _excluded(theirs, other) and other not in excluded:
+        if proposal.name in excluded_by(theirs, other) and other not in excluded:
             told = f"{other} excludes {proposal.name}, which does not exclude it in turn"
             yield Finding("exclusion-unanswered", told, readme.name)
 
@@ -87,7 +87,7 @@ def contradictions(proposal: Proposal) -> Iterator[Finding]:
     readme = proposal.readme
     if readme is None:
         return
-    excluded = _excluded(readme, proposal.name)
+    excluded = excluded_by(readme, proposal.name)
     told_of = set()
     for position, block in enumerate(readme.blocks):
         if any(_EXCLUSIONS.match(heading.text) for heading in block.headings):

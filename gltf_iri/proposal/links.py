@@ -30,7 +30,7 @@ def links(proposal: Proposal) -> Iterator[Finding]:
         if _SCHEME.match(path) or not link.target:
             continue
         if not path:
-            if unquote(anchor) not in readme.anchors:
+            if unquote(anchor).lower() not in readme.anchors:
                 yield Finding("link-anchor", f"there is no heading for {shown('#' + anchor)}", where)
             continue
         place = _place(proposal.folder, path.partition("?")[0])

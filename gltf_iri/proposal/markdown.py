@@ -205,7 +205,7 @@ def _take_links(line: str, number: int, found: Markdown) -> None:
     shown = _CODE.sub("", line)
     found.links += [Link(match[1], number) for match in _LINK.finditer(shown)]
     found.links += [Link(match[1], number) for match in _HTML_LINK.finditer(shown)]
-    found.anchors |= {match[1] for match in _HTML_ANCHOR.finditer(shown)}
+    found.anchors |= {match[1].lower() for match in _HTML_ANCHOR.finditer(shown)}
     named = _NAMED_LINK.match(shown)
     if named and not named[1].startswith("^"):
         found.links.append(Link(named[1], number))

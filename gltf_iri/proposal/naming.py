@@ -18,8 +18,8 @@ from gltf_iri.proposal.objects import extension_objects
 
 __all__ = ["EXTENSION_NAME", "extension_name", "file_names", "property_names", "titles"]
 
-# Names in text: at least one '_' and a lowercase letter, so that constants such as FLOAT_VEC3 are none.
-EXTENSION_NAME: Final = re.compile(r"\b[A-Z][A-Z0-9]*_[a-zA-Z0-9_]*[a-z][A-Za-z0-9_]*\b")
+# Names in text: lowercase behind the prefix, and more than a letter; FLOAT_VEC3 and TEXCOORD_n are none.
+EXTENSION_NAME: Final = re.compile(r"\b[A-Z][A-Z0-9]*_[a-z][A-Za-z0-9_]{2,}\b")
 
 # Scopes that are objects inside the document; those of extensions may also be kept in lists at its root.
 _OF_PARTS: Final = re.compile(r"[A-Z0-9]+_(?:materials?|textures?|mesh|node|camera|image|buffer|sampler)_")

@@ -15,6 +15,7 @@ __all__ = ["heading", "sections"]
 # What a section's heading says, lowercase, in the order in which the registry has them; and whether the
 # template demands it, asks for it, or leaves it open.
 _DEMANDED, _ASKED, _OPEN = "section-missing", "section-missing-minor", ""
+_SCHEMA: Final = "Schema"
 _SECTIONS: Final = (
     ("Contributors", re.compile(r"contributors?\b"), _ASKED),
     ("Status", re.compile(r"status\b"), _DEMANDED),
@@ -23,7 +24,7 @@ _SECTIONS: Final = (
     ("Overview", re.compile(r"overview\b"), _DEMANDED),
     ("Extending …", re.compile(r"extending\b"), _OPEN),
     ("Properties", re.compile(r"properties\b"), _OPEN),
-    ("Schema", re.compile(r"(?:json |gltf )?schemas?$"), _ASKED),
+    (_SCHEMA, re.compile(r"(?:json |gltf )?schemas?(?: updates)?$"), _ASKED),
     ("Appendix", re.compile(r"appendix\b.*copyright"), _OPEN),
 )
 
@@ -46,12 +47,13 @@ def sections(proposal: Proposal) -> Iterator[Finding]:
         return
     latest, name_of_latest = 0, ""
     for name, pattern, severity in _SECTIONS:
-        found = [h for h in readme.headings[1:] if h.level <= 2 and pattern.match(h.text.lower())]
+        deepest = 3 if name == _SCHEMA else 2  # the template has it inside another section
+        found = [h for h in readme.headings[1:] if h.level <= deepest and pattern.match(h.text.lower())]
         if not found:
             if severity:
                 yield Finding(severity, f"there is no section {name!r}", readme.at(1))
             continue
-        line = found[0].line
+        line = found[-1 if name == _SCHEMA else 0].line
         if line < latest:
             told = f"the section {name!r} stands before {name_of_latest!r}"
             yield Finding("section-order", told, readme.at(line))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Container, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -17,7 +17,9 @@ from gltf_iri.proposal.objects import INHERITED, Kind, ObjectType, Property, ext
 __all__ = ["tables"]
 
 _NAME: Final = re.compile(r"[A-Za-z_]\w*")
-_DEFAULT: Final = re.compile(r"default(?: value)?\s*(?::|is|=)?\s*(?:`([^`]*)`|([^\s,;]+))", re.IGNORECASE)
+_DEFAULT: Final = re.compile(
+    r"default(?: value)?\s*(?::|is|=)?\s*(?:`([^`]*)`|(\[[^\]]*\]|[^\s,;]+))", re.IGNORECASE
+)
 _SIZE: Final = re.compile(r"\[\s*(\d*)")
 # What tables write → what a schema calls it. Words that are not here may be any object's name.
 _WORDS: Final[Mapping[str, Kind]] = {
@@ -62,6 +64,8 @@ def tables(proposal: Proposal) -> Iterator[Finding]:
             if not any(_same_object(kind, kinds[other]) for other in rows):
                 yield Finding("table-missing", f"there is no table for {kind.label}", readme.name)
             continue
+        told = {kinds[other].path for other in rows}
+        yield from _lacking(readme, kind, rows[position], told)
         yield from _compare(proposal, readme, kind, rows[position])
 
 
@@ -71,13 +75,20 @@ def _same_object(one: ObjectType, other: ObjectType) -> bool:
     )
 
 
+def _lacking(
+    readme: Markdown, kind: ObjectType, rows: Mapping[str, _Row], told: Container[tuple[str, ...]]
+) -> Iterator[Finding]:
+    """Yield the properties without a row, but for an object that a table of its own describes."""
+    last = max(row.line for row in rows.values())
+    for name in (name for name in kind.properties if name not in rows):
+        if (*kind.path, name) not in told:
+            text = f"the table of {kind.label} lacks {shown(name)}"
+            yield Finding("table-missing-property", text, readme.at(last))
+
+
 def _compare(
     proposal: Proposal, readme: Markdown, kind: ObjectType, rows: Mapping[str, _Row]
 ) -> Iterator[Finding]:
-    last = max(row.line for row in rows.values())
-    for name in kind.properties.keys() - rows.keys():
-        told = f"the table of {kind.label} lacks {shown(name)}"
-        yield Finding("table-missing-property", told, readme.at(last))
     for name, row in rows.items():
         owner = kind.properties.get(name)
         if owner is None:
@@ -142,7 +153,7 @@ def _compare_need(owner: Property, row: _Row, where: str) -> Iterator[Finding]:
         yield Finding("table-required", f"{owner.name} is {told} in the schema", where)
 
 
-def _compare_default(owner: Property, row: _Row, where: str, names: Sequence[str] | Any) -> Iterator[Finding]:
+def _compare_default(owner: Property, row: _Row, where: str, names: Container[str]) -> Iterator[Finding]:
     stated = _stated_default(row)
     has_default = "default" in owner.schema
     expected = owner.schema.get("default")

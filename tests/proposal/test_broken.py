@@ -197,6 +197,10 @@ BROKEN: list[tuple[str, Edit]] = [
     ("example-language", in_text(README, "```json", "```javascript")),
     # other extensions, and pointers
     ("exclusion-contradicted", in_text(README, "glimmer` is excluded", "glimmer` is, too")),
+    (
+        "exclusion-contradicted",
+        in_text(README, '"extensions": {', '"extensions": {"EXT_materials_glimmer": {},'),
+    ),
     ("exclusion-one-sided", written(f"../EXT_materials_glimmer/{README}", "# EXT_materials_glimmer\n")),
     ("exclusion-unverified", in_text(README, "glimmer`.", "glimmer` or `EXT_materials_glow`.")),
     ("exclusion-to-propose", in_text(README, "glimmer`.", "glimmer` or `KHR_materials_unlit`.")),

@@ -170,3 +170,47 @@ def test_layers_hold_the_type_that_their_schema_states(tmp_path):
     root = write(tmp_path)
     in_json(LAYER, lambda tree: tree["properties"]["cells"].update(type="number"))(root)
     assert codes(root) == ["table-type", "pointer-missing"]
+
+
+def test_an_object_may_have_a_table_instead_of_a_row(tmp_path):
+    root = write(tmp_path)
+    part = {"type": "object", "description": "A part.", "properties": {"deep": SIZE}}
+    in_json(LAYER, lambda tree: tree["properties"].update(part=part))(root)
+    style = {"base-missing-inside", "members-missing", "pointer-missing"}
+    assert set(codes(root)) - style == {"table-missing-property", "table-missing"}
+    table = "| Property | Type | Description |\n|-|-|-|\n| `deep` | `number` | Deep. |\n\n## Interaction"
+    in_text(README, "## Interaction", table)(root)
+    assert set(codes(root)) == style
+
+
+def test_sections_may_be_called_as_in_the_template(tmp_path):
+    root = write(tmp_path)
+    in_text(README, "## Schema", "## glTF Schema Updates\n\n### JSON Schema")(root)
+    assert codes(root) == []
+
+
+@pytest.mark.parametrize(
+    "cell", ["No, default:`250.0`", "No, default: 250", "No (default: `250`)", "No. Default is `2.5e2`"]
+)
+def test_a_default_may_be_written_in_many_ways(tmp_path, cell):
+    root = write(tmp_path)
+    in_text(README, "No, default: `250`", cell)(root)
+    assert codes(root) == []
+
+
+def test_a_default_of_an_array_needs_no_code_marks(tmp_path):
+    root = write(tmp_path)
+    in_text(README, "No, default: `[1,1,1]`", "No, default: [1.0, 1.0, 1.0]")(root)
+    assert codes(root) == []
+
+
+def test_defaults_may_have_a_column_of_their_own(tmp_path):
+    root = write(tmp_path)
+    in_text(
+        README, "| Property | Type | Description | Required |", "| Name | Type | Default | Description |"
+    )(root)
+    in_text(README, "| `number` | In nm. | No, default: `250` |", "| `number` | `250` | In nm. |")(root)
+    in_text(README, "| `integer` | How many. | :white_check_mark: Yes |", "| `integer` | | How many. |")(root)
+    assert codes(root) == []
+    in_text(README, "`250`", "`25`")(root)
+    assert codes(root) == ["table-default"]
