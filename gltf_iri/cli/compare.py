@@ -143,17 +143,20 @@ def _tell(comparison: Comparison, files: Mapping[str, Path], *, as_json: bool) -
     if as_json:
         print_json({**comparison.to_json(), "files": dict(files)})
         return
+    from gltf_iri.comparison.report import what_is_judged
+
+    what = what_is_judged(comparison)
     columns = (
         "material",
         "method",
         "pixels",
         "GLSL − Python",
-        "ΔE film mean",
+        f"ΔE {what} mean",
         "p95",
         "max",
         "ΔE picture mean",
     )
-    print_table(columns, [_row(material) for material in comparison.to_json()["materials"]])
+    print_table(columns, [_row(material, what) for material in comparison.to_json()["materials"]])
     if comparison.reference is not None:
         _tell_reference(comparison.reference)
     for material in comparison.materials:
@@ -199,7 +202,7 @@ def _reference_row(label: str, same: Mapping[str, Any] | None, picture: Mapping[
     return (label, *exact, *(_figure(picture[name]) for name in names))
 
 
-def _row(material: Mapping[str, Any]) -> tuple[str, ...]:
+def _row(material: Mapping[str, Any], what: str) -> tuple[str, ...]:
     film, picture = material["method_vs_truth"] or {}, material["picture_vs_truth"] or {}
     figures = (
         material["glsl_vs_python"]["max_relative"],
@@ -208,16 +211,16 @@ def _row(material: Mapping[str, Any]) -> tuple[str, ...]:
     )
     return (
         material_label(material["index"], material["name"]),
-        _method(material),
+        _method(material, what),
         str(material["glsl_vs_python"]["pixels"]),
         *map(_figure, figures),
     )
 
 
-def _method(material: Mapping[str, Any]) -> str:
+def _method(material: Mapping[str, Any], what: str) -> str:
     if material["layers"]:
         return str(material["layers"]["method"])
-    return material["way"]["label"] if material["way"] else material["method"] or "no film"
+    return material["way"]["label"] if material["way"] else material["method"] or f"no {what}"
 
 
 def _figure(value: float | None) -> str:

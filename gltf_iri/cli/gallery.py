@@ -8,6 +8,7 @@ from typing import Literal
 
 import click
 
+from gltf_iri.cli.budget import budget_option, check_choice
 from gltf_iri.cli.common import json_option, note, print_json, progress
 from gltf_iri.cli.picture_options import SIZE, exposure_option
 
@@ -24,7 +25,10 @@ __all__ = ["command"]
     "--env", default="studio", show_default=True, metavar="FILE|studio|white|none", help="Image light."
 )
 @exposure_option("auto")
-@click.option("--method", metavar="NAME", help="Film method; the plan chooses when left out.")
+@click.option(
+    "--method", metavar="NAME", help="Method for films, or for layers; the plan chooses when left out."
+)
+@budget_option
 @json_option
 def command(
     folder: Path,
@@ -33,13 +37,15 @@ def command(
     env: str,
     exposure: float | Literal["auto"] | None,
     method: str | None,
+    budget: float | None,
     as_json: bool,
 ) -> None:
     """Draw every .gltf and .glb file of the PATHs onto one page, OUTDIR/index.html.
 
     PATHs are files and folders, with the folders in them. Without any, the samples are written to
     OUTDIR/samples and shown. Beside each picture stand the plan and the error; beside a broken file its
-    error alone, the rest is drawn all the same, and the exit code is 1.
+    error alone (also where nothing keeps the --budget), the rest is drawn all the same, and the exit code is
+    1.
     """
     from gltf_iri.errors import AssetError
     from gltf_iri.gallery.entry import Setup, make_entry
@@ -52,8 +58,9 @@ def command(
     from gltf_iri.samples.collection import write_samples
     from gltf_iri.scene.choose import choose_environment
 
+    check_choice(budget, method=method)
     check_method(method)
-    setup = Setup(size, choose_environment(env), None if exposure == "auto" else exposure, method)
+    setup = Setup(size, choose_environment(env), None if exposure == "auto" else exposure, method, budget)
     context = create_context()
     check_size(context, size, samples=4)
     if not paths:

@@ -13,7 +13,7 @@ from gltf_iri.comparison.result import Comparison
 from gltf_iri.comparison.template import load_template
 from gltf_iri.whole_files import write_or_refuse
 
-__all__ = ["report_html", "write_report"]
+__all__ = ["report_html", "what_is_judged", "write_report"]
 
 
 def write_report(comparison: Comparison, folder: Path) -> dict[str, Path]:
@@ -57,7 +57,7 @@ def report_html(comparison: Comparison, images: dict[str, bytes]) -> str:
     """
     template = load_template(Path(__file__).parent / "templates" / "report.html.j2", _figure)
     uris = {name: "data:image/png;base64," + base64.b64encode(data).decode() for name, data in images.items()}
-    what = _what(comparison)
+    what = what_is_judged(comparison)
     return template.render(
         report=comparison.to_json(),
         images=uris,
@@ -76,7 +76,7 @@ def report_html(comparison: Comparison, images: dict[str, bytes]) -> str:
     )
 
 
-def _what(comparison: Comparison) -> str:
+def what_is_judged(comparison: Comparison) -> str:
     """Return what of the materials is held against truth: films, Bragg layers, or both."""
     plans = [material.plan for material in comparison.materials]
     if all(plan.layers is None for plan in plans):

@@ -7,7 +7,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from gltf_iri.baking.fill import bake_plans
 from gltf_iri.baking.layer_fill import bake_layer_plans
+from gltf_iri.budgets.plans import plans_within
 from gltf_iri.comparison.figures import TONEMAP
 from gltf_iri.comparison.result import Comparison
 from gltf_iri.comparison.run import compare
@@ -18,8 +20,8 @@ from gltf_iri.rendering.picture import display_pixels, webp_bytes
 from gltf_iri.rendering.render import Renderer
 from gltf_iri.scene.choose import choose_camera
 from gltf_iri.scene.exposure import automatic_exposure
-from gltf_iri.scene.load import load
-from gltf_iri.scene.model import Environment
+from gltf_iri.scene.load import Model, load
+from gltf_iri.scene.model import Environment, Scene
 
 __all__ = ["Entry", "Setup", "make_entry"]
 
@@ -32,6 +34,7 @@ class Setup:
     environment: Environment | None
     exposure: float | None = None  # EV; None: `automatic_exposure` of each file
     method: str | None = None
+    budget: float | None = None  # ΔE, instead of a method
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,20 +87,34 @@ def make_entry(renderer: Renderer, file: Path, setup: Setup) -> Entry:
     try:
         model = load(file)
         scene = model.scene()
-        plans = plan_materials(model.materials, method=setup.method, document=model.document, scene=scene)
+        plans = _planned(model, scene, setup)
         used = {primitive.material for primitive in scene.primitives}
         exposure = setup.exposure
         if exposure is None:
             exposure = automatic_exposure(scene, setup.environment)
         entry = Entry(file, exposure=exposure, plans=tuple(p for p in plans if p.index in used))
         arguments = (model, scene, plans, choose_camera(scene, None, setup.size), setup.environment)
-        layer_tables = bake_layer_plans(entry.plans)
-        frame = renderer.render(*arguments, size=setup.size, layer_tables=layer_tables)
+        tables: dict[str, Any] = {
+            "tables": bake_plans(entry.plans),
+            "layer_tables": bake_layer_plans(entry.plans),
+        }
+        frame = renderer.render(*arguments, size=setup.size, **tables)
         entry = replace(entry, picture=webp_bytes(display_pixels(frame.rgba, exposure, TONEMAP)))
-        comparison = compare(
-            renderer, *arguments, size=setup.size, exposure=exposure, layer_tables=layer_tables
-        )
+        comparison = compare(renderer, *arguments, size=setup.size, exposure=exposure, **tables)
         notes = dict.fromkeys((*comparison.notes, *frame.notes))
         return replace(entry, comparison=comparison, notes=tuple(notes))
     except GltfIriError as error:
         return replace(entry, error=str(error))
+
+
+def _planned(model: Model, scene: Scene, setup: Setup) -> tuple[MaterialPlan, ...]:
+    if setup.budget is None:
+        return plan_materials(model.materials, method=setup.method, document=model.document, scene=scene)
+    light = setup.environment
+    return plans_within(
+        model,
+        scene,
+        setup.budget,
+        size_pixels=setup.size[0] * setup.size[1],
+        has_image_light=light is not None and bool(light.radiance.any()),
+    )

@@ -8,8 +8,10 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
 
+from gltf_iri.comparison.report import what_is_judged
 from gltf_iri.comparison.template import load_template
 from gltf_iri.gallery.entry import Entry, Setup
+from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.whole_files import write_or_refuse
 
 __all__ = ["gallery_html", "write_gallery"]
@@ -42,7 +44,7 @@ def gallery_html(entries: Sequence[Entry], setup: Setup) -> str:
 def _card(entry: Entry) -> dict[str, Any]:
     """Return what the template shows: the file's materials summed up, and each of them."""
     told = entry.to_json()
-    films = [row["method_vs_truth"] for row in told["materials"] if row["method_vs_truth"] is not None]
+    judged = [row["method_vs_truth"] for row in told["materials"] if row["method_vs_truth"] is not None]
     not_drawn = _counted(row["not_drawn"].items() for row in told["materials"])
     mentioned = (
         {e.value: why for e, why in plan.skipped.items() if e not in plan.absent} for plan in entry.plans
@@ -53,11 +55,19 @@ def _card(entry: Entry) -> dict[str, Any]:
         "folder": str(entry.file.parent),
         "image": None if entry.picture is None else _data_uri(entry.picture),
         "effects": _counted((e.value for e in plan.effects) for plan in entry.plans),
-        "methods": list(dict.fromkeys(plan.method for plan in entry.plans if plan.method is not None)),
-        "film": max(films, key=lambda film: film["delta_e_mean"] or 0.0, default=None),
+        "methods": list(dict.fromkeys(filter(None, map(_method, entry.plans)))),
+        "what": "" if entry.comparison is None else what_is_judged(entry.comparison),
+        "judged": max(judged, key=lambda each: each["delta_e_mean"] or 0.0, default=None),
         "not_drawn": not_drawn,
         "left_out": _counted(row.items() for row in mentioned),
     }
+
+
+def _method(plan: MaterialPlan) -> str | None:
+    """Return by what the layers of a material or its film are drawn; None where it has neither."""
+    if plan.layers is not None:
+        return plan.layers.method
+    return plan.method if plan.way is None or plan.method is None else plan.way.label
 
 
 def _counted(rows: Iterable[Iterable[Any]]) -> Counter[Any]:

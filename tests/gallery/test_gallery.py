@@ -99,6 +99,37 @@ def test_what_is_not_drawn_stands_on_the_page(renderer, folder):
     assert "KHR_materials_diffuse_transmission</b>: not read by this program" in gallery_html([entry], SETUP)
 
 
+@pytest.mark.parametrize("budget", [None, 5.0])
+def test_layers_are_told_as_layers(renderer, folder, budget):
+    layer = {"ior2": 1.5, "periodMaximum": 220, "cells": 2, "roughness": 0.6}
+    gltf = {
+        "asset": {"version": "2.0"},
+        "materials": [
+            {
+                "pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0},
+                "extensions": {"EXT_materials_bragg": {"braggFactor": 1, "layers": [layer]}},
+            }
+        ],
+        **_triangle(),
+    }
+    path = folder / "wing.gltf"
+    path.write_text(json.dumps(gltf))
+    entry = make_entry(renderer, path, Setup((40, 30), white(), budget=budget))
+    assert entry.error is None
+    (plan,) = entry.plans
+    assert plan.layers is not None and (plan.layers.delta_e is None) == (budget is None)
+    card = gallery_html([entry], SETUP).split("<article>")[1]
+    assert "<th>layers</th>" in card and "film" not in card
+    assert f"by {plan.layers.method}" in card and "1 layer by" in card
+
+
+def test_a_budget_that_nothing_keeps_is_a_files_own_sentence(renderer, folder):
+    entry = make_entry(
+        renderer, folder / "oil-on-metal" / "oil-on-metal.gltf", Setup((8, 6), None, budget=-1.0)
+    )
+    assert entry.error is not None and "A budget is" in entry.error
+
+
 def _triangle():
     data = "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"
     return {
@@ -172,6 +203,8 @@ def test_without_paths_the_samples_are_shown(gl_context, tmp_path, capsys, monke
         (["nowhere"], "nowhere"),
         (["--size", "0x3"], "0 × 3"),
         (["--method", "magic"], "magic"),
+        (["--budget", "-1"], "A budget is"),
+        (["--budget", "1", "--method", "khr"], "do not go together"),
         (["--env", "no.hdr"], "no.hdr"),
     ],
 )
