@@ -47,6 +47,7 @@ def from_file(
     Layers where the plan draws some, else its film: a material that has both has no layers (the reason stands
     in "not_drawn").
     """
+    from gltf_iri.errors import UsageError
     from gltf_iri.planning.decide import plan_material
     from gltf_iri.scene.load import load
 
@@ -56,6 +57,9 @@ def from_file(
     materials = load(file).materials
     index = chosen_material(materials, name, file, has_layers=True)
     material, plan = materials[index], plan_material(materials[index], index)
+    if material.bragg is None and material.iridescence is None:
+        label = material_label(index, material.name)
+        raise UsageError(f"Material {label} has neither film nor layers; `plan` tells what it has.")
     if plan.layers is not None or (material.bragg is not None and material.iridescence is None):
         if given["thickness"] is not None:
             raise click.UsageError(

@@ -28,7 +28,7 @@ PACKAGE = "gltf_iri"
 # Verb → the line that `--help` shows; the command itself is `command` in gltf_iri/cli/<verb>.py.
 VERBS: Mapping[str, str] = MappingProxyType(
     {
-        "evaluate": "Reflectance colour of a film over angles.",
+        "evaluate": "Reflectance colour of a film, a mirror or layers over angles.",
         "plan": "What each material of a file calls for, what is left out, and why.",
         "render": "Draw a file to a picture, still or turning, without a window.",
         "compare": "Hold GLSL, Python and spectral truth against each other.",

@@ -227,5 +227,7 @@ def test_one_of_several_with_film_or_layers_is_chosen_by_name(
     assert run(["evaluate", path]) == 2
     assert "choose one with --material from: 0 wing, 1 film" in capsys.readouterr().err
     assert told(capsys, path, "--material", "film")["method"] == "khr-guarded"
+    assert run(["evaluate", beetle(tmp_path, film, {"name": "plain"}), "--material", "plain"]) == 2
+    assert "Material 2 plain has neither film nor layers" in capsys.readouterr().err
     assert run(["evaluate", path, "--material", "film", "--method", "layers-rgb"]) == 2
     assert "no method 'layers-rgb' for a film" in capsys.readouterr().err
