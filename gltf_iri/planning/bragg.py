@@ -69,7 +69,7 @@ def verdicts_below(material: Material, judged: Mapping[Effect, Verdict]) -> Iter
 
 
 def layer_reflects(layer: MirrorLayer, bragg: Bragg) -> bool:
-    """True where `layer` is to be seen in its host: an index differs, in a thickness above 0 if it is n2."""
+    """True where facets of `layer` mirror anything: an index differs, in a thickness above 0 if it is n2."""
     ior_1 = layer.first_ior(bragg.host_ior)
     if ior_1 != bragg.host_ior:
         return True
@@ -99,8 +99,6 @@ def _idle(bragg: Bragg) -> Skip | None:
         return Skip(f"the factor is 0{texture}")
     if not bragg.layers:
         return Skip("the list of layers is empty")
-    if not any(layer_reflects(layer, bragg) for layer in bragg.layers):
-        return Skip("no layer reflects: their films have the host's index or no thickness")
     return None
 
 

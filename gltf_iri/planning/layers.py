@@ -37,7 +37,7 @@ _TABLE_BANDS: Final[Mapping[str, int]] = MappingProxyType(
 _EXACT: Final = "yeh-spectral"
 
 _ONE_CELL: Final = "one cell in a host of its own n1"
-_NO_CONTRAST: Final = "facets that mirror nothing let all light by"
+_NO_CONTRAST: Final = "smooth films that mirror nothing let all light by"
 
 
 def default_tables(method: str, texel: Span, *, is_alone: bool = False) -> LayerTables | None:
@@ -104,12 +104,17 @@ def plan_layers(
 
 
 def _kept(bragg: Bragg, texel: Span) -> tuple[list[PlannedLayer], list[str]]:
-    """Return the layers that are simulated, and what is simpler about them."""
+    """Return the layers that are simulated, one at least, and what is simpler about them.
+
+    Rough facets that mirror nothing still mask each other; and without the base's interface, for which layers
+    stand, even a stack that does nothing is seen.
+    """
     from gltf_iri.optics.microfacet import ALPHA_MIN
 
     layers, simpler = [], []
     for i, layer in enumerate(bragg.layers):
-        if not layer_reflects(layer, bragg):
+        is_last_left = not layers and i == len(bragg.layers) - 1
+        if layer.roughness == 0.0 and not layer_reflects(layer, bragg) and not is_last_left:
             simpler.append(f"layer {i} is left out: {_NO_CONTRAST}")
             continue
         if layer.roughness**2 <= ALPHA_MIN:

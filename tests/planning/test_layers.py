@@ -5,10 +5,13 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from gltf_iri.errors import UsageError
+from gltf_iri.evaluation.layer_methods import layer_colours
 from gltf_iri.evaluation.mirror import Mirror
+from gltf_iri.evaluation.planned_stack import planned_stack
 from gltf_iri.evaluation.registry import evaluate
 from gltf_iri.material.bragg import Bragg, MirrorLayer
 from gltf_iri.material.material import Material, MetallicRoughness
@@ -37,16 +40,27 @@ def test_no_layers_is_plain_pbr() -> None:
         None,
         Bragg(1.0),
         Bragg(0.0, layers=(ROUGH,)),
-        Bragg(1.0, layers=(MirrorLayer(ior_2=1.0),)),
     ):
         assert plan_layers(Material(bragg=bragg)) is None
         assert plan_material(Material(bragg=bragg), 0).layers is None
 
 
-def test_a_layer_that_mirrors_nothing_is_left_out() -> None:
-    plan = planned(MirrorLayer(ior_2=1.0), ROUGH)
+def test_a_smooth_layer_that_mirrors_nothing_is_left_out_among_others() -> None:
+    plan = planned(MirrorLayer(ior_2=1.0), ROUGH, MirrorLayer(fill=1.0))
     assert [layer.source for layer in plan.layers] == [1]
     assert any("layer 0 is left out" in told for told in plan.simpler)
+    assert [layer.source for layer in planned(MirrorLayer(ior_2=1.0), MirrorLayer(ior_2=1.0)).layers] == [1]
+
+
+def test_rough_facets_that_mirror_nothing_still_mask_each_other() -> None:
+    plan = planned(MirrorLayer(ior_2=1.0, roughness=0.5), ROUGH)
+    assert [layer.source for layer in plan.layers] == [0, 1]
+    colours = layer_colours("layers-bands", planned_stack(plan))
+    grazing = np.array([0.1])
+    masked = 2.0 * 0.1 / (0.1 + np.sqrt(0.0625 + 0.9375 * 0.01))  # Smith's G₁ at α = 1/4
+    alone = layer_colours("layers-bands", planned_stack(planned(MirrorLayer(ior_2=1.0, roughness=0.5))))
+    assert alone.entering(grazing) == pytest.approx(masked, abs=1e-6)
+    assert np.all(colours.entering(grazing) < masked)
 
 
 def test_one_cell_in_a_host_of_its_own_is_a_film() -> None:
