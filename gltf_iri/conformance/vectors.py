@@ -16,7 +16,7 @@ from gltf_iri.conformance.bragg_input import read_bragg_input
 from gltf_iri.conformance.bragg_truth import VALUES_MAX, WAVELENGTHS_NM, bragg_outputs
 from gltf_iri.conformance.khr_rows import draw_khr
 from gltf_iri.conformance.rows import Draw, Drawn, draw_row
-from gltf_iri.conformance.words import BRAGG_WORDS, KHR_WORDS, Words
+from gltf_iri.conformance.words import BRAGG_WORDS, COLOURS, KHR_WORDS, Words
 
 __all__ = ["FORMAT_VERSION", "ROWS", "VECTORS", "draw_bragg", "drawn_line", "file_text"]
 
@@ -73,11 +73,11 @@ def file_text(name: str, lines: Iterable[str]) -> str:
         "wavelengths_nm": list(WAVELENGTHS_NM),
         "decimals": 9,
         "conventions": dict(words.conventions),
-        "tolerances": {name: _tolerance(*of) for name, of in words.tolerances.items()},
+        "tolerances": {name: _tolerance(name, *of) for name, of in words.tolerances.items()},
     }
     text = json.dumps(head, ensure_ascii=False, indent=1)
     return f'{text[:-2]},\n "rows": [\n' + ",\n".join(lines) + "\n]}\n"
 
 
-def _tolerance(absolute: float, relative: float, reason: str) -> dict[str, Any]:
-    return {"absolute": absolute, "relative": relative, "reason": reason}
+def _tolerance(name: str, absolute: float, relative: float, reason: str) -> dict[str, Any]:
+    return {"absolute": absolute, "relative": relative, "reason": reason, "colour": name in COLOURS}

@@ -7,7 +7,12 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
-__all__ = ["BRAGG_WORDS", "KHR_WORDS", "Words"]
+__all__ = ["BRAGG_WORDS", "COLOURS", "KHR_WORDS", "Words"]
+
+# Quantities that are colours, of which CIEDE2000 says something.
+COLOURS: Final = frozenset(
+    {"layer_colours", "base_colour", "entering", "transmitted", "truth", "khr", "khr_guarded"}
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +116,7 @@ KHR_WORDS: Final = Words(
                 0.0,
                 "closed forms, magnified where R123 is cut at 0.9999 and where Gaussians cancel",
             ),
-            "khr_guarded": (1e-7, 0.0, "as khr"),
+            "khr_guarded": (1e-7, 0.0, "closed forms, as khr"),
             "khr_delta_e": (1e-3, 0.0, "what a step of 1e-5 does to dark colours, of the truth's tolerance"),
         }
     ),

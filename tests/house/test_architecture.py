@@ -49,6 +49,7 @@ OPENERS = {
     "rendering/picture.py",  # encodes into the file that whole_files.py hands it
     "comparison/figures.py",  # encodes into memory
     "bench/plot.py",  # encodes into memory
+    "bench/vector_digits.py",  # the checkout's own vectors
     "bench/machine.py",  # what Linux says of its processor
     "rendering/source.py",  # the program's own shaders
     "colour/observer.py",  # the program's own tables
