@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from itertools import takewhile
 from typing import Final
 
 from gltf_iri.proposal.bounds import MAX_SIBLINGS
@@ -94,8 +95,11 @@ def contradictions(proposal: Proposal) -> Iterator[Finding]:
             continue
         if not any(_TOGETHER.search(heading.text) for heading in block.headings):
             continue
-        for other in EXTENSION_NAME.findall(block.text):
-            if other in excluded and other not in told_of and not _FORBIDS.search(_said(readme, position)):
+        named = [other for other in dict.fromkeys(EXTENSION_NAME.findall(block.text)) if other in excluded]
+        if not named or _FORBIDS.search(_said(readme, position)):
+            continue
+        for other in named:
+            if other not in told_of:
                 told_of.add(other)
                 told = (
                     f"{other} is excluded in line {excluded[other].line}, and here it is not: say which holds"
@@ -108,5 +112,6 @@ def _said(readme: Markdown, position: int) -> str:
     block = readme.blocks[position]
     if not (block.headings and block.headings[-1].line == block.line):
         return block.text
-    under = [b.text for b in readme.blocks[position + 1 :] if block.headings[-1] in b.headings]
-    return " ".join(under)
+    # The section's end ends the search: a text of nothing but headings is read once for each level of them.
+    after = (readme.blocks[place] for place in range(position + 1, len(readme.blocks)))
+    return " ".join(b.text for b in takewhile(lambda b: block.headings[-1] in b.headings, after))

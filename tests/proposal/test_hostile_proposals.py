@@ -140,6 +140,21 @@ def test_a_readme_of_one_endless_line_is_read_in_time(tmp_path, line):
     assert len(findings(root)) <= MAX_FINDINGS + 20
 
 
+@pytest.mark.parametrize(
+    "section",
+    [
+        "## Interactions: " + "EXT_materials_glimmer " * 20_000 + "\n\n" + "That is not so.\n\n" * 10_000,
+        "## Interactions with EXT_materials_glimmer\n\nThere are not any.\n\n" * 6_000,
+    ],
+    ids=["one name many times", "many headings"],
+)
+def test_what_is_said_of_an_excluded_extension_is_read_once(tmp_path, section):
+    """Searched anew for each name, and to the file's end for each heading, either would take minutes."""
+    root = write(tmp_path)
+    (root / README).write_text((root / README).read_text() + "\n" + section)
+    assert "exclusion-contradicted" not in codes(root)
+
+
 def test_names_of_files_cannot_steer_the_terminal(tmp_path, capsys):
     root = write(tmp_path)
     (root / "schema" / "\x1b[2J\n.schema.json").write_text("{", encoding="utf-8")
