@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.testing import assert_allclose
+from numpy.testing import assert_allclose, assert_array_equal
 
 from gltf_iri.baking.layer_fill import filled_layers
 from gltf_iri.baking.layer_lookup import LayerLookup
@@ -28,6 +28,7 @@ from gltf_iri.reference.environment_map import EnvironmentMap
 from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.gather import gather_surface
 from gltf_iri.reference.glass import Scenery, Traced, trace_glass
+from gltf_iri.reference.glass_layers import LocalCrossing, cross_layers
 from gltf_iri.reference.image_light import reflected
 from gltf_iri.reference.lobes import evaluate_lobes
 from gltf_iri.reference.points import gather_points
@@ -280,6 +281,36 @@ def test_point_light_from_behind_crosses_all_layers_once(
     # Nothing of a point's light passes a volume.
     thick = look(props.quad(), replace(material, volume=body()), 0.6)
     assert not evaluate_lobes(surface, light, film, thick.plan).any()
+
+
+def test_base_colour_metal_and_what_passes_are_paid_on_entering_alone(
+    look: Callable[..., Look], props: SimpleNamespace
+) -> None:
+    """Out of a body only layers, host and facets stand in the way, whatever its surface is made of."""
+    seen = look(props.sphere(), glass(BLUE, GREEN, host=1.3, pbr=paint(0.5), volume=body()), 0.6)
+    clear = seen.surface().take(np.zeros(200, np.int64))
+    made = replace(
+        clear,
+        base_color=0.5 * clear.base_color,
+        metallic=np.full(200, 0.4),
+        transmission=np.full(200, 0.7),
+    )
+    back = np.tile([0.3, -0.2, np.sqrt(0.87)], (200, 1))
+
+    def crossed(surface: Surface, leaves: bool) -> LocalCrossing:
+        colours, rng = colours_of(seen.layers), np.random.default_rng(11)
+        ways = np.full(200, 1.5), np.full(200, leaves), back
+        return cross_layers(surface, seen.layers, lambda _: colours, *ways, rng)
+
+    one, other = crossed(clear, True), crossed(made, True)
+    assert 0 < one.passes.sum() < 200
+    assert_array_equal(one.passes, other.passes)
+    assert_array_equal(one.direction, other.direction)
+    assert_array_equal(one.weight, other.weight)
+    # On entering each is paid: a path that passes weighs the more, the rarer it is chosen to.
+    into, tinted = crossed(clear, False), crossed(made, False)
+    spent = [np.where(each.passes[:, None], each.weight, 0.0).mean(axis=0) for each in (into, tinted)]
+    assert np.all(spent[1] < 0.4 * spent[0])
 
 
 def test_what_is_transmitted_is_not_scattered(look: Callable[..., Look], props: SimpleNamespace) -> None:
