@@ -27,7 +27,7 @@ def sight(row: Any) -> Any:
 
 
 def test_facets_reflect_what_mpmaths_matrices_do(bragg: dict[str, Any]) -> None:
-    for each in bragg["rows"][::23]:
+    for each in bragg["rows"][::41]:
         row = read_bragg_input(each["input"])
         for facets, given in zip(row.facets, each["output"]["reflectance"], strict=True):
             cosine = min(float(sight(row).cos_h), 1.0)
@@ -55,11 +55,11 @@ def test_layers_let_pass_what_their_facets_normals_add_up_to(bragg: dict[str, An
         for facets, given in zip(row.facets, each["output"]["transmittance"], strict=True):
             is_simple = facets.alpha > 0.0 and facets.cells <= 2 and facets.d1_nm + facets.d2_nm < 500.0
             cosine = float(sight(row).cos_i)
-            if is_simple and cosine > 0.2 and facets.n1 >= facets.host_ior and count < 8:
+            if is_simple and cosine > 0.2 and facets.n1 >= facets.host_ior and count < 5:
                 T = independent.facet_transmittance(facets, np.array(WAVELENGTHS_NM), cosine, 120)
                 np.testing.assert_allclose(T, given, rtol=0.0, atol=1e-8)
                 count += 1
-    assert count == 8
+    assert count == 5
 
 
 def test_colours_of_smooth_layers_are_those_of_another_sum(bragg: dict[str, Any]) -> None:
@@ -91,7 +91,7 @@ def test_the_packages_truth_is_the_vectors_within_what_it_says(bragg: dict[str, 
     for each in bragg["rows"][::13]:
         row = read_bragg_input(each["input"])
         size = sum(f.cells * (f.d1_nm + f.d2_nm) for f in row.facets)
-        if not row.facets or row.is_smooth or size > 1500.0 or count == 5:
+        if not row.facets or row.is_smooth or size > 1500.0 or count == 4:
             continue
         seen = sight(row)
         layers = tuple(BraggLayer.of(f.n1, f.n2, f.d1_nm, f.d2_nm, f.cells, f.alpha) for f in row.facets)
@@ -105,7 +105,7 @@ def test_the_packages_truth_is_the_vectors_within_what_it_says(bragg: dict[str, 
         f = brdf(stack, Pose.of(row.cos_theta_i, row.cos_theta_o, row.cos_phi), colours)
         np.testing.assert_allclose(f, out["stack_brdf"], rtol=1e-5, atol=1e-6)
         count += 1
-    assert count == 5
+    assert count == 4
 
 
 def test_the_packages_film_truth_is_the_vectors(khr: dict[str, Any]) -> None:
