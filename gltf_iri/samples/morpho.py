@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.colour.transfer import srgb_encode
 from gltf_iri.samples.bragg_layer import bragg_stack
 from gltf_iri.samples.builder import GLTFBuilder
 from gltf_iri.samples.png import encode_png, texel_centres, to_bytes
@@ -33,10 +34,7 @@ BROWN: Final = (0.02, 0.012, 0.008)
 # What the shelves reflect at normal incidence, linear Rec.709 under D65, cut off at 0.
 FALLBACK_F0: Final = (0.0, 0.558, 1.0)
 _DIELECTRIC_F0: Final = 0.04  # of a surface without KHR_materials_ior
-_BLUE_BYTE, _BARE_BYTE = (
-    (0.0, 0.772, 1.0),
-    (0.235, 0.235, 0.235),
-)  # sRGB of that colour and of bare chitin, 0.045
+_BARE: Final = (0.045, 0.045, 0.045)  # of chitin alone
 
 _FOREWING: Final = ((78.0, -14.0), (0.040, 0.062, 0.066, 0.062, 0.053, 0.047, 0.045, 0.040))
 _HINDWING: Final = ((-8.0, -96.0), (0.030, 0.041, 0.045, 0.046, 0.043, 0.040, 0.036, 0.024))
@@ -48,11 +46,11 @@ def build() -> Sample:
     """Build the asset."""
     builder = GLTFBuilder("morpho")
     strength = _strength()
-    colours = [
-        blue * strength + bare * (1.0 - strength) for blue, bare in zip(_BLUE_BYTE, _BARE_BYTE, strict=True)
-    ]
+    # Rounded, so that the last bits of a power move no texel.
+    blue, bare = np.round(srgb_encode((FALLBACK_F0, _BARE)), 3)
+    colours = strength[::2, ::2, None] * (blue - bare) + bare
     shelves = builder.texture("shelves", encode_png(to_bytes(strength)))
-    tint = builder.texture("tint", encode_png(to_bytes(np.stack(colours, axis=-1)[::2, ::2])))
+    tint = builder.texture("tint", encode_png(to_bytes(colours)))
     scales = builder.texture("scales", encode_png(to_bytes(_scales())), repeat=True)
     wings = builder.material(
         "wing scales",

@@ -7,6 +7,7 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.colour.transfer import srgb_encode
 from gltf_iri.samples.bragg_layer import bragg_stack
 from gltf_iri.samples.builder import GLTFBuilder
 from gltf_iri.samples.domains import nearest_points, scrambled
@@ -53,7 +54,7 @@ def build() -> Sample:
     builder = GLTFBuilder("opal")
     level, strength = _domains()
     domains = np.stack([strength, np.array(LEVELS)[level] / 255.0, np.zeros_like(strength)], axis=-1)
-    seen = _srgb(np.array(FALLBACK_F0)[level] * strength[..., None])[::2, ::2]
+    seen = srgb_encode(np.array(FALLBACK_F0)[level] * strength[..., None])[::2, ::2]
     stone = builder.material(
         "opal",
         base_color=POTCH,
@@ -123,12 +124,6 @@ def _stack(domains: int) -> dict[str, Any]:
     texture = {"index": domains}
     stack = bragg_stack(LAYER, host_ior=HOST_IOR)
     return {**stack, "braggTexture": texture, "braggPeriodTexture": texture}
-
-
-def _srgb(linear: Float64) -> Float64:
-    """Return `linear` in [0, 1] as textures of colours hold it, IEC 61966-2-1."""
-    bright = 1.055 * np.maximum(linear, 0.0031308) ** (1.0 / 2.4) - 0.055
-    return np.where(linear <= 0.0031308, 12.92 * linear, bright)
 
 
 def _dome(rings: int, segments: int) -> Shape:
