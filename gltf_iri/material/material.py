@@ -20,10 +20,13 @@ from gltf_iri.material.transmission import Transmission
 from gltf_iri.material.unlit import Unlit
 from gltf_iri.material.volume import Volume
 
-__all__ = ["DEFAULT_MATERIAL", "Material", "MetallicRoughness"]
+__all__ = ["DEFAULT_MATERIAL", "SPECULAR_GLOSSINESS", "Material", "MetallicRoughness"]
 
 # Stands where an index is wanted for the material of primitives that name none.
 DEFAULT_MATERIAL: Final = -1
+
+# Not read, but excluded by extensions that are.
+SPECULAR_GLOSSINESS: Final = "KHR_materials_pbrSpecularGlossiness"
 
 
 @dataclass(frozen=True, slots=True)

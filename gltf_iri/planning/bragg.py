@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from gltf_iri.material.bragg import BRAGG_CELLS_MAX, BRAGG_LAYERS_MAX, Bragg, MirrorLayer
 from gltf_iri.material.iridescence import Iridescence
-from gltf_iri.material.material import Material
+from gltf_iri.material.material import SPECULAR_GLOSSINESS, Material
 from gltf_iri.planning.core import metal_verdict
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.reach import Span
@@ -105,6 +105,8 @@ def _idle(bragg: Bragg) -> Skip | None:
 def _missing(material: Material, bragg: Bragg, folded: Mapping[Effect, str]) -> NotDrawn | None:
     if material.iridescence is not None:
         return NotDrawn(f"{Iridescence.EXTENSION} on the same material excludes it")
+    if SPECULAR_GLOSSINESS in material.unread_extensions:
+        return NotDrawn(f"{SPECULAR_GLOSSINESS} on the same material excludes it")
     if told := _beyond(bragg):
         return NotDrawn(f"{told} that are simulated")
     *above, last = (layer.first_ior(bragg.host_ior) != bragg.host_ior for layer in bragg.layers)

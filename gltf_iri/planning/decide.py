@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from gltf_iri.errors import UsageError
 from gltf_iri.material.iridescence import Iridescence
-from gltf_iri.material.material import DEFAULT_MATERIAL, Material
+from gltf_iri.material.material import DEFAULT_MATERIAL, SPECULAR_GLOSSINESS, Material
 from gltf_iri.planning.bragg import period_texel
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.film import DRAWS_PHANTOM_FRINGES, idle_film, verdicts_without_film
@@ -30,8 +30,6 @@ if TYPE_CHECKING:
 __all__ = ["complete_plans", "plan_material", "plan_materials"]
 
 _NOTHING: Final[Mapping[Effect, str]] = MappingProxyType({})
-
-_SPECULAR_GLOSSINESS: Final = "KHR_materials_pbrSpecularGlossiness"
 
 
 def plan_materials(
@@ -178,8 +176,8 @@ def _not_drawn(material: Material, verdicts: dict[Effect, Verdict]) -> dict[str,
     missing = {e.value: v.reason for e, v in verdicts.items() if isinstance(v, NotDrawn)}
     for name in material.unread_extensions:
         missing[name] = "not read by this program, drawn without it"
-    if _SPECULAR_GLOSSINESS in missing:
-        missing[_SPECULAR_GLOSSINESS] = "not read by this program, drawn with the metallic-roughness values"
+    if SPECULAR_GLOSSINESS in missing:
+        missing[SPECULAR_GLOSSINESS] = "not read by this program, drawn with the metallic-roughness values"
         if material.iridescence is not None:
-            missing[_SPECULAR_GLOSSINESS] += f"; {Iridescence.EXTENSION} excludes it on the same material"
+            missing[SPECULAR_GLOSSINESS] += f"; {Iridescence.EXTENSION} excludes it on the same material"
     return missing

@@ -9,7 +9,7 @@ import pytest
 from gltf_iri.material.bragg import Bragg, MirrorLayer
 from gltf_iri.material.dispersion import Dispersion
 from gltf_iri.material.iridescence import Iridescence
-from gltf_iri.material.material import Material, MetallicRoughness
+from gltf_iri.material.material import SPECULAR_GLOSSINESS, Material, MetallicRoughness
 from gltf_iri.material.texture import TextureInfo
 from gltf_iri.material.transmission import Transmission
 from gltf_iri.material.unlit import Unlit
@@ -78,6 +78,7 @@ def test_a_least_period_counts_only_where_a_texture_leads_to_it():
     ("material", "named"),
     [
         (made(iridescence=Iridescence()), "KHR_materials_iridescence"),
+        (made(unread_extensions=(SPECULAR_GLOSSINESS,)), SPECULAR_GLOSSINESS),
         (made(replace(ONE, layers=(LAYER,) * 5)), "5 layers are more than the 4"),
         (made(replace(ONE, layers=(replace(LAYER, cells=1001),))), "1001 cells are more than the 1000"),
         (made(replace(ONE, layers=(replace(LAYER, ior_2=11.0),))), "an index of 11 is beyond"),
