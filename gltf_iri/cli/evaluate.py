@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from gltf_iri.backends import BACKENDS
-from gltf_iri.cli.budget import budget_option, check_choice, nanoseconds
+from gltf_iri.cli.budget import budget_option, check_choice
 from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
 from gltf_iri.cli.evaluate_array import DEFAULT_COLUMNS, array_to_array
 from gltf_iri.cli.evaluate_layers import from_layers, layer_options, print_layers, refuse_layer_options
@@ -21,6 +21,8 @@ from gltf_iri.cli.evaluate_subject import (
     How,
     from_mirror,
     from_parameters,
+    note_undefined,
+    title_of,
 )
 from gltf_iri.cli.value_types import Numbers, Setting
 from gltf_iri.planning.method import (
@@ -28,7 +30,6 @@ from gltf_iri.planning.method import (
     DEFAULT_METHOD,
     DEFAULT_MIRROR_METHOD,
     METHODS,
-    parameters_text,
 )
 
 if TYPE_CHECKING:
@@ -204,13 +205,7 @@ def _print(result: dict[str, Any]) -> None:
         columns += ["specular R", "G", "B", "base weight"]
         for row, specular, weight in zip(rows, result["specular"], result["base_weight"], strict=True):
             row += [*(f"{v:.6f}" for v in specular), f"{weight:.6f}"]
-    method = ", ".join(filter(None, (result["method"], parameters_text(result["parameters"]))))
-    kept = ""
-    if "delta_e" in result:
-        from gltf_iri.budgets.search import figure
-
-        kept = f", ΔE ≤ {figure(result['delta_e'])} for {nanoseconds(result['ns_per_colour'])} a colour"
-    title = f"{method}{kept}, by {result['backend']}, {result['white']} white, linear Rec.709"
+    title = title_of(result)
     if "material" in result:
         label = material_label(result["index"], result["material"])
         low_nm, high_nm = result["thickness_range_nm"]
@@ -219,8 +214,7 @@ def _print(result: dict[str, Any]) -> None:
     print_table(columns, rows, title=title)
     if "reason" in result:
         note(f"Computed as a film: {result['reason']}.")
-    for case, where in result["undefined"].items():
-        note(f"the method leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")
+    note_undefined(result)
     _note_the_rest(result)
 
 

@@ -7,12 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from gltf_iri.cli.budget import nanoseconds
 from gltf_iri.cli.common import note, print_table
-from gltf_iri.planning.method import DEFAULT_LAYERS_METHOD, parameters_text
+from gltf_iri.cli.evaluate_subject import How, note_undefined, title_of, undefined_at
+from gltf_iri.planning.method import DEFAULT_LAYERS_METHOD
 
 if TYPE_CHECKING:
-    from gltf_iri.cli.evaluate_subject import How
     from gltf_iri.evaluation.layers import LayerStack
     from gltf_iri.evaluation.stack_evaluation import StackEvaluation
 
@@ -126,10 +125,7 @@ def stack_json(
         "backend": done.backend,
         "parameters": dict(done.parameters),
         **chosen,
-        "undefined": {
-            case: [c for c, touched in zip(cosines, mask, strict=True) if touched]
-            for case, mask in done.undefined.items()
-        },
+        "undefined": undefined_at(cosines, done),
     }
 
 
@@ -160,14 +156,7 @@ def print_layers(result: Mapping[str, Any], *, more: str = "") -> None:
         [f"{c:g}", *(f"{v:.6f}" for each in colours for v in each)]
         for c, *colours in zip(result["cos"], *(values for _, values in groups), strict=True)
     ]
-    method = ", ".join(filter(None, (result["method"], parameters_text(result["parameters"]))))
-    kept = ""
-    if "delta_e" in result:
-        from gltf_iri.budgets.search import figure
-
-        kept = f", ΔE ≤ {figure(result['delta_e'])} for {nanoseconds(result['ns_per_colour'])} a colour"
-    title = f"{method}{kept}, by {result['backend']}, {result['white']} white, linear Rec.709{more}"
-    print_table(columns, rows, title=title)
+    print_table(columns, rows, title=f"{title_of(result)}{more}")
     if "brdf" in result:
         light = result["light"]
         note(f"These are f_r in 1/sr, lit at cos θ = {light['cos']:g} and cos φ = {light['cos_phi']:g}.")
@@ -177,8 +166,7 @@ def print_layers(result: Mapping[str, Any], *, more: str = "") -> None:
     elif "plain" not in result:
         note("What is transmitted comes from the truth, whatever the method, and reaches the base.")
     note("Light that is reflected more than once is not sent back; it counts as absorbed.")
-    for case, where in result["undefined"].items():
-        note(f"the method leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")
+    note_undefined(result)
 
 
 _SHARES = (("", "rgb"), ("transmitted ", "transmitted"), ("absorbed ", "absorbed"))

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from gltf_iri.cli.budget import nanoseconds
+from gltf_iri.cli.common import note
 from gltf_iri.material.ior import Ior
 from gltf_iri.material.iridescence import Iridescence
-from gltf_iri.planning.method import METHODS
+from gltf_iri.planning.method import METHODS, parameters_text
 from gltf_iri.planning.mirror import ONE_CELL
 from gltf_iri.planning.way import Way
 
@@ -17,7 +20,7 @@ if TYPE_CHECKING:
     from gltf_iri.evaluation.film import Evaluation
 
 __all__ = ["DEFAULT_BASE", "DEFAULT_FILM", "DEFAULT_OUTSIDE_IOR", "How", "evaluation_json", "from_mirror"]
-__all__ += ["from_parameters"]
+__all__ += ["from_parameters", "note_undefined", "title_of", "undefined_at"]
 
 # glTF's own defaults, for the film and for its base.
 DEFAULT_FILM = Iridescence()
@@ -107,11 +110,33 @@ def evaluation_json(cosines: tuple[float, ...], evaluation: Evaluation) -> dict[
         "rgb": evaluation.rgb,
         "backend": evaluation.backend,
         "parameters": dict(evaluation.parameters),
-        "undefined": {
-            case: [c for c, touched in zip(cosines, mask, strict=True) if touched]
-            for case, mask in evaluation.undefined.items()
-        },
+        "undefined": undefined_at(cosines, evaluation),
     }
+
+
+def undefined_at(cosines: tuple[float, ...], evaluation: Evaluation) -> dict[str, list[float]]:
+    """Return the cosines that each undefined case of the method's text touched."""
+    return {
+        case: [c for c, touched in zip(cosines, mask, strict=True) if touched]
+        for case, mask in evaluation.undefined.items()
+    }
+
+
+def title_of(result: Mapping[str, Any]) -> str:
+    """Return what a table of `result`, as `evaluate --json` prints it, is called for people."""
+    method = ", ".join(filter(None, (result["method"], parameters_text(result["parameters"]))))
+    kept = ""
+    if "delta_e" in result:
+        from gltf_iri.budgets.search import figure
+
+        kept = f", ΔE ≤ {figure(result['delta_e'])} for {nanoseconds(result['ns_per_colour'])} a colour"
+    return f"{method}{kept}, by {result['backend']}, {result['white']} white, linear Rec.709"
+
+
+def note_undefined(result: Mapping[str, Any]) -> None:
+    """Say where the method's text leaves something of `result` undefined."""
+    for case, where in result["undefined"].items():
+        note(f"the method leaves undefined: {case}, at cos θ = {', '.join(f'{c:g}' for c in where)}.")
 
 
 def _or(value: float | None, default: float) -> float:
