@@ -25,11 +25,11 @@ def join(pointer: str, key: str | int) -> str:
     return f"{pointer}/{_shortened(token)}"
 
 
-def shown(value: object) -> str:
+def shown(value: object, longest: int = _LONGEST) -> str:
     """Quote a value of the file: escaped, and cut where it is long (a data URI may have megabytes)."""
     if isinstance(value, dict | list):
         return kind_of(value)
-    return _shortened(repr(value[: 2 * _LONGEST] if isinstance(value, str) else value))
+    return _shortened(repr(value[: 2 * longest] if isinstance(value, str) else value), longest)
 
 
 def kind_of(value: object) -> str:
@@ -37,5 +37,5 @@ def kind_of(value: object) -> str:
     return _KINDS[type(value)]
 
 
-def _shortened(text: str) -> str:
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 1]}…"
+def _shortened(text: str, longest: int = _LONGEST) -> str:
+    return text if len(text) <= longest else f"{text[: longest - 1]}…"

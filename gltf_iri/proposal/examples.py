@@ -16,7 +16,7 @@ from gltf_iri.errors import AssetError
 from gltf_iri.proposal.bounds import MAX_EXAMPLE_BYTES, parse_bounded
 from gltf_iri.proposal.evaluation import Fault, Judge, TooCostlyError
 from gltf_iri.proposal.exclusions import excluded_by
-from gltf_iri.proposal.finding import Finding
+from gltf_iri.proposal.finding import POINTER_LENGTH, Finding
 from gltf_iri.proposal.folder import Proposal, scope_of
 from gltf_iri.proposal.library import SchemaFile
 from gltf_iri.proposal.markdown import Fence
@@ -177,11 +177,13 @@ def _judged(
         return
     fault = faults[0][1] if faults and all(fault for _, fault in faults) else None
     if fault is not None:
-        told = f"{shown(found.pointer + fault.place)} in an example is invalid: {fault.reason}"
+        told = (
+            f"{shown(found.pointer + fault.place, POINTER_LENGTH)} in an example is invalid: {fault.reason}"
+        )
         yield Finding("example-invalid", told, where)
     unknown = [list(_unknown(kinds, e.name, (), found.value, found.pointer)) for e, _ in faults]
     for pointer in min(unknown, key=len, default=[]):
-        told = f"{shown(pointer)} in an example is a property that the schema does not have"
+        told = f"{shown(pointer, POINTER_LENGTH)} in an example is a property that the schema does not have"
         yield Finding("example-unknown-property", told, where)
 
 

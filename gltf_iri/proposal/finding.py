@@ -12,7 +12,10 @@ from enum import Enum
 from types import MappingProxyType
 from typing import Final
 
-__all__ = ["CODES", "Code", "Finding", "Severity"]
+__all__ = ["CODES", "POINTER_LENGTH", "Code", "Finding", "Severity"]
+
+# What a finding shows of a pointer: pointers into extensions are long, and differ at their ends.
+POINTER_LENGTH: Final = 200
 
 
 class Severity(Enum):

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import Final
 
 from gltf_iri.asset.words import shown
-from gltf_iri.proposal.finding import Finding
+from gltf_iri.proposal.finding import POINTER_LENGTH, Finding
 from gltf_iri.proposal.folder import Proposal
 from gltf_iri.proposal.markdown import Markdown, plain
 from gltf_iri.proposal.objects import Kind, ObjectType, Property, extension_objects, item_kind
@@ -66,10 +66,10 @@ def pointers(proposal: Proposal) -> Iterator[Finding]:
     for pointer, (line, type_) in rows.items():
         known = expected.get(pointer)
         if known is None:
-            told = f"{shown(pointer)} leads to nothing that the schema has"
+            told = f"{shown(pointer, POINTER_LENGTH)} leads to nothing that the schema has"
             yield Finding("pointer-unknown", told, readme.at(line))
         elif type_ and type_ != known.type:
-            told = f"{shown(pointer)} is {shown(type_)} here, {known.type} by the schema"
+            told = f"{shown(pointer, POINTER_LENGTH)} is {shown(type_)} here, {known.type} by the schema"
             yield Finding("pointer-type", told, readme.at(line))
     last = max(line for line, _ in rows.values())
     for pointer, one in expected.items():

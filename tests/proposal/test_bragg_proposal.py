@@ -82,3 +82,12 @@ def test_a_fault_in_it_is_told_by_the_finding_that_names_it_alone(copy: Path, co
     edit(copy)
     after = Counter(finding.code for finding in findings(copy))
     assert after - before == Counter([code])
+
+
+def test_a_finding_shows_a_long_pointer_to_its_end(tmp_path):
+    root = tmp_path / NAME
+    shutil.copytree(PROPOSAL, root)
+    pointer = f"{POINTER}/braggPeriodTexture/extensions/KHR_texture_transform/offset"
+    in_text(README, f"`{pointer}` | `float2`", f"`{pointer}` | `float3`")(root)
+    (finding,) = (one for one in check_proposal(root).findings if one.code == "pointer-type")
+    assert f"'{pointer}' is 'float3' here" in finding.message
