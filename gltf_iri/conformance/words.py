@@ -59,7 +59,8 @@ BRAGG_WORDS: Final = Words(
             "entering": "the colour of T_k(o) of all layers, without the smooth surface of the host",
             "transmitted": "T_c(o) (1 - metallic) transmission baseColor entering, the factor of the specular"
             " BTDF where bragg is 1",
-            "coating_reflectance": "1 - T_c of the host's smooth surface at cos_theta_i; 0 in air",
+            "coating_reflectance": "1 - T_c of the host's smooth surface at cos_theta_i; 0 in air (a"
+            " mirror image seen at cos_theta_o takes the same function of that cosine)",
             "stack_brdf": "f_r in 1/sr where bragg is 1, without the host's mirror image; null where a layer"
             " has roughness 0: its mirror image is no number",
             "brdf": "(1 - bragg) core + bragg stack_brdf; core is glTF 2.0 Appendix B: a metal and, of index"
@@ -67,7 +68,8 @@ BRAGG_WORDS: Final = Words(
             " Smith masking and alpha = roughnessFactor squared, light and viewer outside. What a BTDF sends"
             " is no part of either; null where stack_brdf is and bragg is above 0",
             "no effect": "where no layer has an effect (none are there, or a rule about ior1 is broken) lists"
-            " are empty, the rest null, and brdf is the core's",
+            " are empty, the rest null, and brdf is the core's; where bragg is 0 brdf is the core's too, and"
+            " the layers' quantities are told as if it were not",
         }
     ),
     tolerances=MappingProxyType(
@@ -76,7 +78,8 @@ BRAGG_WORDS: Final = Words(
             "transmittance": (
                 1e-5,
                 0.0,
-                "a sum over facets' angles: some hundred Gauss points for few cells, thousands for many",
+                "a sum over facets' angles: some hundred Gauss points for few cells, thousands for many, and for"
+                " few of ior2 below the host's index, where panels should end at the critical angle",
             ),
             "layer_colours": (1e-5, 0.0, _OF_COLOUR),
             "base_colour": (1e-5, 0.0, _OF_COLOUR),

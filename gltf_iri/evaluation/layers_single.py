@@ -16,6 +16,8 @@ what passes a layer of 1 and 1.5 both ways, at cosines 0.1 to 1, α 0.01 / 0.1 /
 
 Angles err less: against four times as many by 1e-7 for twenty cells of 500 nm, by 1e-5 for fifty.
 Fifty cells' resonances are narrower than the rule's steps where facets are too smooth to blur them.
+Panels of angles do not end where light begins to be reflected totally: in a host denser than the last
+layer's n1, T and what it colours err by up to 7e-5 (spec/vectors).
 """
 
 from __future__ import annotations
