@@ -78,8 +78,8 @@ BRAGG_WORDS: Final = Words(
             "transmittance": (
                 1e-5,
                 0.0,
-                "a sum over facets' angles: some hundred Gauss points for few cells, thousands for many, and for"
-                " few of ior2 below the host's index, where panels should end at the critical angle",
+                "a sum over facets' angles: some hundred Gauss points for few cells, thousands for many, and"
+                " for few of ior2 below the host's index, where panels should end at the critical angle",
             ),
             "layer_colours": (1e-5, 0.0, _OF_COLOUR),
             "base_colour": (1e-5, 0.0, _OF_COLOUR),
