@@ -78,6 +78,8 @@ def test_colours_of_smooth_layers_are_those_of_another_sum(bragg: dict[str, Any]
         first = independent.colour_of(facet[0])
         np.testing.assert_allclose(first, out["layer_colours"][0], rtol=0, atol=2e-9)
         np.testing.assert_allclose(independent.colour_of(passed), out["base_colour"], rtol=0, atol=2e-9)
+        once = independent.colour_of(partial(passed, ways=way_out))
+        np.testing.assert_allclose(once, out["entering"], rtol=0, atol=2e-9)
     assert len(smooth) >= 6
 
 
