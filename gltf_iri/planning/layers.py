@@ -111,7 +111,8 @@ def _kept(bragg: Bragg, texel: Span) -> tuple[list[PlannedLayer], list[str]]:
     """
     from gltf_iri.optics.microfacet import ALPHA_MIN
 
-    layers, simpler = [], []
+    layers: list[PlannedLayer] = []
+    simpler: list[str] = []
     for i, layer in enumerate(bragg.layers):
         is_last_left = not layers and i == len(bragg.layers) - 1
         if layer.roughness == 0.0 and not layer_reflects(layer, bragg) and not is_last_left:
