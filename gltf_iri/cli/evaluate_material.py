@@ -53,7 +53,8 @@ def from_file(
 
     for option, value in given.items():
         if value is not None and option not in ("thickness", "light", "period_texel"):
-            raise click.UsageError(f"FILE's material decides --{option.replace('_', '-')}; leave it out")
+            named = "host" if option == "host_ior" else option.replace("_", "-")
+            raise click.UsageError(f"FILE's material decides --{named}; leave it out")
     materials = load(file).materials
     index = chosen_material(materials, name, file, has_layers=True)
     material, plan = materials[index], plan_material(materials[index], index)

@@ -204,6 +204,7 @@ def test_a_film_beside_excluded_layers_is_evaluated_and_they_are_told(
         ({}, ["--light", "0.5,0.5,0.5"], "not 1 or 2 numbers"),
         ({}, ["--method", "khr"], "no method 'khr' for layers"),
         ({}, ["--layer", "1,1.5,1,1,1,1"], "decides --layer"),
+        ({}, ["--host", "1.2"], "decides --host;"),
     ],
 )
 def test_what_a_file_cannot_answer_is_said_in_one_sentence(
