@@ -17,7 +17,7 @@ from typing import Any
 import click
 
 __all__ = ["file_argument", "json_option", "material_label", "note", "print_json", "print_table", "printable"]
-__all__ += ["progress"]
+__all__ += ["progress", "working"]
 
 _LABEL_MAX = 60  # a longer name would break the tables
 
@@ -94,6 +94,18 @@ def _print_rich_table(columns: Sequence[str], cells: Sequence[Sequence[str]], ti
     for row in cells:
         table.add_row(*(Text(cell) for cell in row))  # Text: square brackets in a name are not markup
     Console().print(table)
+
+
+@contextmanager
+def working(what: str) -> Iterator[None]:
+    """Show on a terminal that something of unknown length is under way while the block runs."""
+    if not sys.stderr.isatty():
+        yield
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(what):
+        yield
 
 
 @contextmanager

@@ -10,7 +10,7 @@ import click
 
 from gltf_iri.backends import BACKENDS
 from gltf_iri.cli.budget import budget_option, check_choice
-from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table
+from gltf_iri.cli.common import json_option, material_label, note, print_json, print_table, working
 from gltf_iri.cli.evaluate_array import DEFAULT_COLUMNS, array_to_array
 from gltf_iri.cli.evaluate_layers import from_layers, layer_options, print_layers, refuse_layer_options
 from gltf_iri.cli.evaluate_material import from_file, print_material_layers
@@ -175,7 +175,8 @@ def command(
     if out is not None or columns is not None:
         raise click.UsageError("--out and --columns need --in, a .npy file of films")
     if file is not None:
-        result = from_file(file, material, cosines, how, layered, subject)
+        with working("Evaluating the material"):
+            result = from_file(file, material, cosines, how, layered, subject)
         if "layers" in result and not as_json:
             print_material_layers(result)
             _note_the_rest(result)
@@ -183,7 +184,8 @@ def command(
     elif material is not None or layered:
         raise click.UsageError("--material and --layered need a FILE")
     elif subject["layer"] is not None:
-        layers = from_layers(cosines, how, subject)
+        with working("Evaluating the layers"):
+            layers = from_layers(cosines, how, subject)
         (print_json if as_json else print_layers)(layers)
         return
     elif subject["bragg"] is not None:

@@ -128,7 +128,7 @@ def _beyond(bragg: Bragg) -> str:
         return f"{len(bragg.layers)} layers are more than the {BRAGG_LAYERS_MAX}"
     cells = max(layer.cells for layer in bragg.layers)
     if cells > BRAGG_CELLS_MAX:
-        return f"{cells} cells are more than the {BRAGG_CELLS_MAX}"
+        return f"{cells:g} cells are more than the {BRAGG_CELLS_MAX}"
     periods = [nm for layer in bragg.layers for nm in _periods_nm(layer, bragg)]
     if max(periods) > _PERIOD_MAX_NM:
         return f"a period of {max(periods):g} nm is beyond the {_PERIOD_MAX_NM:g} nm"

@@ -73,7 +73,7 @@ def build() -> Sample:
             "does not state the colours of its Lambertian bases; these are ours."
         ),
         fallback=(
-            "Balls with a rough coloured sheen, blue, orange, pink and pink, that do not change "
+            "Balls with a rough coloured sheen, violet, orange, pink and pink, that do not change "
             "colour with the angle: KHR_materials_ior and KHR_materials_specular hold what the layers "
             "reflect face on. A renderer that knows neither shows plain black, grey and blue balls."
         ),
