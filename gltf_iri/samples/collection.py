@@ -31,6 +31,9 @@ NAMES = (
     "bragg-everything",
 )
 
+# Drawn once by spec/figures/samples.py: pictures differ in their last bits between drivers.
+_PICTURES = Path(__file__).with_name("pictures")
+
 _INDEX = "index.json"
 _WRITER = "gltf-iri samples"
 
@@ -51,6 +54,7 @@ def collection_files() -> Mapping[str, bytes]:
     files = {_INDEX: (json.dumps(index, indent=2, ensure_ascii=False) + "\n").encode()}
     for sample in samples:
         files[f"{sample.name}/README.md"] = sample.readme.encode()
+        files[f"{sample.name}/{sample.picture}"] = (_PICTURES / sample.picture).read_bytes()
         files |= {f"{sample.name}/{name}": content for name, content in sample.files.items()}
     return files
 

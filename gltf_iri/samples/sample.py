@@ -11,7 +11,7 @@ __all__ = ["Sample"]
 
 @dataclass(frozen=True, slots=True)
 class Sample:
-    """One asset of the collection; its folder is called `name` and holds `files` and the README."""
+    """One asset of the collection; its folder, called `name`, holds `files`, a picture and the README."""
 
     name: str
     title: str
@@ -27,9 +27,20 @@ class Sample:
         return f"{self.name}/{next(iter(self.files))}"
 
     @property
+    def picture(self) -> str:
+        """Name of the picture that the README shows."""
+        return f"{self.name}.webp"
+
+    @property
     def readme(self) -> str:
         """Text of the sample's README.md."""
-        parts = [f"# {self.title}", self.shows, "## What to look for", self.look_for]
+        parts = [
+            f"# {self.title}",
+            f"![{self.title}]({self.picture})",
+            self.shows,
+            "## What to look for",
+            self.look_for,
+        ]
         parts += ["## Without the extension", self.fallback] if self.fallback else []
         parts += ["## Numbers", self.sources]
         paragraphs = "\n\n".join(parts).split("\n\n")

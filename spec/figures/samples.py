@@ -1,7 +1,8 @@
-"""Draws the README's pictures: `python spec/figures/samples.py` in a checkout."""
+"""Draws the samples' pictures: `python spec/figures/samples.py` in a checkout, and then `make samples`."""
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -18,14 +19,7 @@ ROOT = Path(__file__).resolve().parents[2]
 SIZE = (480, 360)  # pixels
 OVERSAMPLED = 2  # fine normals sparkle at one shaded sample a pixel
 
-ASSETS = (
-    "soap-bubble/soap-bubble.glb",
-    "beetle/beetle.glb",
-    "anodised-ramp/anodised-ramp.gltf",
-    "jewel-beetle/jewel-beetle.glb",
-    "opal/opal.glb",
-    "dichroic-mirror/dichroic-mirror.gltf",
-)
+PICTURES = ROOT / "gltf_iri" / "samples" / "pictures"
 
 
 def draw(asset: str) -> NDArray[np.uint8]:
@@ -39,9 +33,10 @@ def draw(asset: str) -> NDArray[np.uint8]:
 
 
 def main() -> None:
-    """Draw each asset into a file of its own, beside this one."""
-    for asset in ASSETS:
-        Path(__file__).with_name(f"{Path(asset).stem}.webp").write_bytes(webp_bytes(draw(asset)))
+    """Draw each sample into a file of its own, from which `gltf-iri samples` takes it."""
+    PICTURES.mkdir(exist_ok=True)
+    for sample in json.loads((ROOT / "samples" / "index.json").read_text(encoding="utf-8"))["samples"]:
+        (PICTURES / f"{sample['name']}.webp").write_bytes(webp_bytes(draw(sample["file"])))
 
 
 if __name__ == "__main__":

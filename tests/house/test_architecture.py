@@ -52,6 +52,7 @@ OPENERS = {
     "bench/vector_digits.py",  # the checkout's own vectors
     "bench/machine.py",  # what Linux says of its processor
     "rendering/source.py",  # the program's own shaders
+    "samples/collection.py",  # the program's own pictures of samples
     "colour/observer.py",  # the program's own tables
     "compiled/loops.py",  # the sources of compiled loops, to know their machine code by
     "arrays/memory.py",  # what Linux says of the process
