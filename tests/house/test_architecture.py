@@ -52,12 +52,11 @@ OPENERS = {
     "bench/vector_digits.py",  # the checkout's own vectors
     "bench/machine.py",  # what Linux says of its processor
     "rendering/source.py",  # the program's own shaders
-    "samples/collection.py",  # the program's own pictures of samples
     "colour/observer.py",  # the program's own tables
     "compiled/loops.py",  # the sources of compiled loops, to know their machine code by
     "arrays/memory.py",  # what Linux says of the process
     "arrays/stream.py",  # keeps room on the disk for the array that whole_files.py hands it
-    "samples/collection.py",  # looks at the index of an earlier collection
+    "samples/collection.py",  # the program's own pictures, and the index of an earlier collection
     "baking/cache.py",  # tables that it wrote itself, and the sources that filled them
     "planning/costs.py",  # the program's own map of costs
     "cli/main.py",  # the null device
