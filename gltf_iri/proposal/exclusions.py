@@ -108,10 +108,11 @@ def contradictions(proposal: Proposal) -> Iterator[Finding]:
 
 
 def _said(readme: Markdown, position: int) -> str:
-    """Return a block's text; of a heading, all that stands under it."""
+    """Return a block's text; of a heading, with all that stands under it."""
     block = readme.blocks[position]
     if not (block.headings and block.headings[-1].line == block.line):
         return block.text
     # The section's end ends the search: a text of nothing but headings is read once for each level of them.
     after = (readme.blocks[place] for place in range(position + 1, len(readme.blocks)))
-    return " ".join(b.text for b in takewhile(lambda b: block.headings[-1] in b.headings, after))
+    below = takewhile(lambda b: block.headings[-1] in b.headings, after)
+    return " ".join([block.text, *(b.text for b in below)])

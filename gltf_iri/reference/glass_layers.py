@@ -77,8 +77,8 @@ def cross_layers(
     outside = replace(surface, metallic=np.where(leaves, 0.0, surface.metallic))
     view = np.where(leaves[:, None], bent.direction * _TURNED, back)
     mirrors, colours = LayerMirrors(outside, plan, method, view), method(surface.bragg_period_texel)
-    tint = ((1.0 - surface.metallic) * surface.transmission)[:, None] * surface.base_color
-    passage = np.where(leaves[:, None], 1.0, tint) * let_through(colours, plan.host_ior, view[:, 2])
+    share = np.where(leaves[:, None], 1.0, surface.passing_share)
+    passage = share * let_through(colours, plan.host_ior, view[:, 2])
 
     brightness = np.vstack([mirrors.brightness(colours), np.abs(passage).sum(axis=1)])
     there = np.vstack([mirrors.is_there(), np.any(passage != 0.0, axis=1)])

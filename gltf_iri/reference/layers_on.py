@@ -94,9 +94,8 @@ def _from_behind(
     seen = _facets(surface, front, n_dot_l, surface.alpha_roughness)
     # Looking straight into a light that grazes there is no half vector.
     seen = seen * np.any(surface.view + front != 0.0, axis=1)
-    tint = ((1.0 - surface.metallic) * surface.transmission)[:, None] * surface.base_color
     through = let_through(method(surface.bragg_period_texel), plan.host_ior, surface.n_dot_v)
-    return np.asarray((n_dot_l * seen)[:, None] * tint * through)
+    return np.asarray((n_dot_l * seen)[:, None] * surface.passing_share * through)
 
 
 def sight_between(surface: Surface, towards_light: Float64, n_dot_l: Float64, host_ior: float) -> Sight:

@@ -49,6 +49,11 @@ class Surface:
     clearcoat_roughness: Float64
     clearcoat_normal: Float64  # unit, turned towards the viewer
 
+    @property
+    def passing_share(self) -> Float64:
+        """Share (n, 3) of light that goes through, interface aside: (1 − metallic)·transmission·colour."""
+        return np.asarray(((1.0 - self.metallic) * self.transmission)[:, None] * self.base_color)
+
     def take(self, rows: NDArray[np.int64]) -> Surface:
         """Return the points `rows` (k,), in that order."""
         return Surface(**{field.name: getattr(self, field.name)[rows] for field in fields(self)})

@@ -155,6 +155,12 @@ def test_what_is_said_of_an_excluded_extension_is_read_once(tmp_path, section):
     assert "exclusion-contradicted" not in codes(root)
 
 
+def test_a_heading_that_excludes_contradicts_nothing(tmp_path):
+    root = write(tmp_path)
+    (root / README).write_text((root / README).read_text() + "\n## Not with EXT_materials_glimmer\n")
+    assert "exclusion-contradicted" not in codes(root)
+
+
 def test_names_of_files_cannot_steer_the_terminal(tmp_path, capsys):
     root = write(tmp_path)
     (root / "schema" / "\x1b[2J\n.schema.json").write_text("{", encoding="utf-8")
