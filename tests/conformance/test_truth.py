@@ -35,6 +35,18 @@ def test_facets_reflect_what_mpmaths_matrices_do(bragg: dict[str, Any]) -> None:
                 assert abs(float(independent.cell_reflectance(facets, nm, cosine)) - value) <= LAST_DECIMAL
 
 
+def test_what_sums_over_facets_and_wavelengths_stand_on_is_mpmaths_too(bragg: dict[str, Any]) -> None:
+    """Of every kind of row, at angles from grazing on: float64 matrices are in the sums of tests below."""
+    g = np.random.default_rng(7)
+    for each in bragg["rows"][::31]:
+        for facets in read_bragg_input(each["input"]).facets:
+            if facets.cells > 30:
+                continue
+            nm, cosine = g.uniform(360.0, 830.0), g.uniform(0.05, 1.0)
+            fast = independent.fast_reflectance(facets, np.asarray(nm), np.asarray(cosine))
+            assert abs(float(independent.cell_reflectance(facets, nm, cosine)) - fast) <= 1e-9
+
+
 def test_films_reflect_what_mpmaths_matrices_do(khr: dict[str, Any]) -> None:
     for each in khr["rows"][::37]:
         film = khr_film(each["input"])
