@@ -83,7 +83,7 @@ def build() -> Sample:
         fallback=(
             "Grey balls with a rough sheen that is yellowish to blue-green in the top row and grows "
             "from next to nothing to green in the bottom row, the same at every angle: "
-            "KHR_materials_ior and KHR_materials_specular hold what layer and coating reflect face "
+            "KHR_materials_specular holds what layer and coating reflect face "
             "on."
         ),
         files=builder.to_glb(),

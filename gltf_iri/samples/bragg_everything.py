@@ -149,8 +149,7 @@ def _four_layers(builder: GLTFBuilder, name: str, mask: int, periods: int, rippl
         "texCoord": 1,
         "extensions": {"KHR_texture_transform": {"offset": [0.0, 0.0], "rotation": 0.2, "scale": [1.0, 1.0]}},
     }
-    surface = tinted_surface((0.1, 0.3, 0.2))
-    surface["KHR_materials_specular"]["specularColorTexture"] = covered
+    surface = {"KHR_materials_ior": {"ior": 1.5}, **tinted_surface((0.1, 0.3, 0.2), covered)}
     bragg = {
         "braggFactor": 1.0,
         "braggTexture": covered,

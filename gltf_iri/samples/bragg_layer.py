@@ -11,6 +11,7 @@ from gltf_iri.samples.rounding import rounded_list
 __all__ = ["BLACK", "bragg_layer", "bragg_stack", "tinted_surface"]
 
 BLACK: Final = (0.0, 0.0, 0.0)
+_DIELECTRIC_F0: Final = 0.04  # of a surface without KHR_materials_ior
 
 
 def bragg_layer(d1_nm: float, d2_nm: float, ior_2: float, cells: int, alpha: float) -> dict[str, Any]:
@@ -36,16 +37,14 @@ def bragg_stack(*layers: Mapping[str, Any], host_ior: float = 1.0) -> dict[str, 
     return {"braggFactor": 1.0, **host, "layers": [dict(layer) for layer in layers]}
 
 
-def tinted_surface(f0: tuple[float, float, float]) -> dict[str, dict[str, Any]]:
-    """Return the extensions that give a dielectric the reflectance `f0` (3,), linear Rec.709, below 1.
+def tinted_surface(
+    f0: tuple[float, float, float], texture: Mapping[str, Any] | None = None
+) -> dict[str, dict[str, Any]]:
+    """Return the extension that gives a dielectric the F0 `f0` (3,), linear Rec.709, times a texture.
 
-    Layers stand in place of this surface; who ignores them sees it. The index carries the largest channel,
-    F0 = ((n − 1)/(n + 1))² (KHR_materials_ior), and the colour the rest (KHR_materials_specular).
+    Layers stand in place of this surface; who ignores them sees it. F0 = 0.04 · specularColor, cut off at 1
+    (KHR_materials_specular); colours above 1 are legal.
     """
-    largest = max(f0)
-    ior = (1.0 + sqrt(largest)) / (1.0 - sqrt(largest))
-    tint = [round(channel / largest, 3) for channel in f0]
-    return {
-        "KHR_materials_ior": {"ior": round(ior, 3)},
-        "KHR_materials_specular": {"specularColorFactor": tint},
-    }
+    factor = [round(channel / _DIELECTRIC_F0, 3) for channel in f0]
+    textured = {} if texture is None else {"specularColorTexture": dict(texture)}
+    return {"KHR_materials_specular": {"specularColorFactor": factor, **textured}}

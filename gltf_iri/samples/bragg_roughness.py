@@ -61,7 +61,7 @@ def build() -> Sample:
         fallback=(
             "The same series of grey balls with a red (top), pink (middle) and nearly colourless "
             "sheen that roughness spreads, but no rings and no change with the angle: "
-            "KHR_materials_ior and KHR_materials_specular hold what the layers reflect face on. The "
+            "KHR_materials_specular holds what the layers reflect face on. The "
             "middle row has one roughness there, that of its upper layer."
         ),
         files=builder.to_glb(),

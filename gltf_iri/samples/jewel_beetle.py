@@ -84,7 +84,7 @@ def build() -> Sample:
         ),
         fallback=(
             "Each area has as its specular colour what its mirror reflects face on "
-            "(KHR_materials_ior and KHR_materials_specular, which the layers stand in place of): a green "
+            "(KHR_materials_specular, which the layers stand in place of): a green "
             "beetle with red and purple stripes, which keeps its colours as it turns and pales towards the "
             "silhouette."
         ),

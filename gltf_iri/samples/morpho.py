@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.colour.transfer import srgb_encode
-from gltf_iri.samples.bragg_layer import bragg_stack
+from gltf_iri.samples.bragg_layer import bragg_stack, tinted_surface
 from gltf_iri.samples.builder import GLTFBuilder
 from gltf_iri.samples.png import encode_png, texel_centres, to_bytes
 from gltf_iri.samples.sample import Sample
@@ -33,7 +33,6 @@ BROWN: Final = (0.02, 0.012, 0.008)
 
 # What the shelves reflect at normal incidence, linear Rec.709 under D65, cut off at 0.
 FALLBACK_F0: Final = (0.0, 0.558, 1.0)
-_DIELECTRIC_F0: Final = 0.04  # of a surface without KHR_materials_ior
 _BARE: Final = (0.045, 0.045, 0.045)  # of chitin alone
 
 _FOREWING: Final = ((78.0, -14.0), (0.040, 0.062, 0.066, 0.062, 0.053, 0.047, 0.045, 0.040))
@@ -61,10 +60,7 @@ def build() -> Sample:
         normal_repeats=_SCALES,
         double_sided=True,
         extensions={
-            "KHR_materials_specular": {
-                "specularColorFactor": [1.0 / _DIELECTRIC_F0] * 3,
-                "specularColorTexture": {"index": tint},
-            },
+            **tinted_surface((1.0, 1.0, 1.0), {"index": tint}),
             "EXT_materials_bragg": {**bragg_stack(SHELVES), "braggTexture": {"index": shelves}},
         },
     )

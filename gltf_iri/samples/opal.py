@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.colour.transfer import srgb_encode
-from gltf_iri.samples.bragg_layer import bragg_stack
+from gltf_iri.samples.bragg_layer import bragg_stack, tinted_surface
 from gltf_iri.samples.builder import GLTFBuilder
 from gltf_iri.samples.domains import nearest_points, scrambled
 from gltf_iri.samples.png import encode_png, to_bytes
@@ -46,7 +46,6 @@ FALLBACK_F0: Final = (
     (0.034, 0.0, 0.0),
 )
 _SIDE, _COUNT, _FAULTS_TEXELS = 128, 140, 5.0
-_DIELECTRIC_F0: Final = 0.04  # of a surface without KHR_materials_ior
 
 
 def build() -> Sample:
@@ -61,10 +60,7 @@ def build() -> Sample:
         metallic=0.0,
         roughness=0.2,
         extensions={
-            "KHR_materials_specular": {
-                "specularColorFactor": [1.0 / _DIELECTRIC_F0] * 3,
-                "specularColorTexture": {"index": builder.texture("seen", encode_png(to_bytes(seen)))},
-            },
+            **tinted_surface((1.0, 1.0, 1.0), {"index": builder.texture("seen", encode_png(to_bytes(seen)))}),
             "EXT_materials_bragg": _stack(builder.texture("domains", encode_png(to_bytes(domains)))),
         },
     )

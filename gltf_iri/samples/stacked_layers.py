@@ -74,8 +74,8 @@ def build() -> Sample:
         ),
         fallback=(
             "Balls with a rough coloured sheen, violet, orange, pink and pink, that do not change "
-            "colour with the angle: KHR_materials_ior and KHR_materials_specular hold what the layers "
-            "reflect face on. A renderer that knows neither shows plain black, grey and blue balls."
+            "colour with the angle: KHR_materials_specular holds what the layers "
+            "reflect face on. A renderer without it shows plain black, grey and blue balls."
         ),
         files=builder.to_glb(),
     )
