@@ -31,6 +31,9 @@ _TEXTURES = frozenset(
     }
 )
 
+# Of these, what acts on no layer but on what layers are mixed with.
+_TEXTURES_OF_THE_MIX = frozenset({"specular-texture", "specular-color-texture", "bragg-texture"})
+
 _LISTED_MAX = 8  # materials that an error names; `plan` lists them all
 
 
@@ -74,7 +77,8 @@ def from_file(
                     f"--{option.replace('_', '-')} is for layers, and this material has none; leave it out"
                 )
         result = _of_film(material, plan, cosines, how, layered, given["thickness"])
-    result["textures_left_out"] = [e.value for e in plan.effects if e.value in _TEXTURES]
+    asked = _TEXTURES if plan.layers is None or layered else _TEXTURES - _TEXTURES_OF_THE_MIX
+    result["textures_left_out"] = [e.value for e in plan.effects if e.value in asked]
     return result | {"not_drawn": dict(plan.not_drawn)}
 
 

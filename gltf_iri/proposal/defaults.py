@@ -25,8 +25,8 @@ _FACTOR: Final = re.compile(r"(Factor|Strength)$")
 
 def legal_defaults(proposal: Proposal) -> Iterator[Finding]:
     """Each default is valid against the schema that states it, in that schema's own draft."""
-    judge = Judge(proposal.library)
-    for file in proposal.library.own.values():
+    judge = Judge(proposal.schemas)
+    for file in proposal.schemas.own.values():
         for place in subschemas(file.tree):
             if "default" not in place.schema:
                 continue
@@ -57,7 +57,7 @@ def needless_defaults(proposal: Proposal) -> Iterator[Finding]:
 
 def empty_object(proposal: Proposal) -> Iterator[Finding]:
     """For a material, an empty extension object is valid."""
-    judge = Judge(proposal.library)
+    judge = Judge(proposal.schemas)
     for entry in proposal.entries:
         if scope_of(entry, proposal.name) != "material":
             continue

@@ -12,7 +12,7 @@ from typing import Any, Final
 
 from gltf_iri.proposal.bounds import MAX_STEPS
 from gltf_iri.proposal.drafts import Draft
-from gltf_iri.proposal.library import DanglingError, Library, SchemaFile
+from gltf_iri.proposal.schema_set import DanglingError, SchemaFile, SchemaSet
 from gltf_iri.proposal.schema_walk import Place, children
 from gltf_iri.proposal.word_list import words
 
@@ -53,10 +53,10 @@ def illegality(schema: dict[str, Any], draft: Draft) -> Fault | None:
 
 
 class Judge:
-    """Judges values by the schemas of a library; all calls together may take `MAX_STEPS`."""
+    """Judges values by the schemas of a set; all calls together may take `MAX_STEPS`."""
 
-    def __init__(self, library: Library) -> None:
-        self._library = library
+    def __init__(self, schemas: SchemaSet) -> None:
+        self._schemas = schemas
         self._steps = 0
         self._classes: dict[str, Any] = {}
         self._clean: dict[int, dict[str, Any]] = {}
@@ -101,7 +101,7 @@ class Judge:
     def _follow(self, _: Any, reference: Any, value: Any, __: Any) -> Iterator[Any]:
         file, pointer, text = reference
         try:
-            target = self._library.find(file, pointer, text)
+            target = self._schemas.find(file, pointer, text)
         except DanglingError:
             return  # another finding tells of it
         yield from self._errors(target.file, Place(target.pointer, target.schema), value)

@@ -18,9 +18,9 @@ from gltf_iri.proposal.evaluation import Fault, Judge, TooCostlyError
 from gltf_iri.proposal.exclusions import excluded_by
 from gltf_iri.proposal.finding import POINTER_LENGTH, Finding
 from gltf_iri.proposal.folder import Proposal, scope_of
-from gltf_iri.proposal.library import SchemaFile
 from gltf_iri.proposal.markdown import Fence
 from gltf_iri.proposal.objects import INHERITED, ObjectType, extension_objects
+from gltf_iri.proposal.schema_set import SchemaFile
 
 __all__ = ["examples"]
 
@@ -61,7 +61,7 @@ def examples(proposal: Proposal) -> Iterator[Finding]:
     readme = proposal.readme
     if readme is None:
         return
-    judge = Judge(proposal.library)
+    judge = Judge(proposal.schemas)
     excluded = excluded_by(readme, proposal.name)
     kinds = {(k.file.name, k.path): k for k in extension_objects(proposal)}
     for fence in readme.fences:

@@ -15,8 +15,8 @@ from gltf_iri.errors import AssetError
 from gltf_iri.proposal.bounds import MAX_README_BYTES, MAX_SCHEMA_BYTES, MAX_SCHEMAS, parse_bounded
 from gltf_iri.proposal.drafts import draft_of
 from gltf_iri.proposal.finding import Finding
-from gltf_iri.proposal.library import SUFFIX, Library, SchemaFile
 from gltf_iri.proposal.markdown import Markdown, parse_markdown
+from gltf_iri.proposal.schema_set import SUFFIX, SchemaFile, SchemaSet
 
 __all__ = ["README", "Proposal", "read_proposal", "read_readme"]
 
@@ -28,12 +28,12 @@ class Proposal:
     """What lies in the folder; `findings` say what could not be read.
 
     `entries` are the schemas of the extension's own objects (``material.NAME.schema.json``); the others in
-    `library.own` are parts of them.
+    `schemas.own` are parts of them.
     """
 
     folder: Path
     name: str
-    library: Library
+    schemas: SchemaSet
     entries: tuple[SchemaFile, ...]
     readme: Markdown | None
     findings: tuple[Finding, ...] = field(default=())
@@ -52,7 +52,7 @@ def read_proposal(folder: Path) -> Proposal:
     readme, faults = read_readme(root, root)
     ending = f".{root.name}{SUFFIX}"
     entries = [file for file in files.values() if f".{file.name}".endswith(ending)]
-    return Proposal(root, root.name, Library(files), tuple(entries), readme, (*findings, *faults))
+    return Proposal(root, root.name, SchemaSet(files), tuple(entries), readme, (*findings, *faults))
 
 
 def scope_of(entry: SchemaFile, name: str) -> str:

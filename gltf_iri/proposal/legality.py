@@ -10,7 +10,7 @@ from gltf_iri.proposal.drafts import ALL_KEYWORDS, ANNOTATIONS, DRAFTS, Draft
 from gltf_iri.proposal.evaluation import illegality
 from gltf_iri.proposal.finding import Finding
 from gltf_iri.proposal.folder import Proposal
-from gltf_iri.proposal.library import SchemaFile
+from gltf_iri.proposal.schema_set import SchemaFile
 from gltf_iri.proposal.schema_walk import Place, subschemas
 
 __all__ = ["draft", "identifiers", "keywords", "legal"]
@@ -18,7 +18,7 @@ __all__ = ["draft", "identifiers", "keywords", "legal"]
 
 def draft(proposal: Proposal) -> Iterator[Finding]:
     """Every schema names a draft that glTF's tools know."""
-    for file in proposal.library.own.values():
+    for file in proposal.schemas.own.values():
         named = file.tree.get("$schema")
         where = file.at("/$schema")
         if named is None:
@@ -37,7 +37,7 @@ def draft(proposal: Proposal) -> Iterator[Finding]:
 
 def legal(proposal: Proposal) -> Iterator[Finding]:
     """Every schema is legal in its own draft."""
-    for file in proposal.library.own.values():
+    for file in proposal.schemas.own.values():
         if file.draft is not None:
             fault = illegality(file.tree, file.draft)
             if fault is not None:
@@ -47,7 +47,7 @@ def legal(proposal: Proposal) -> Iterator[Finding]:
 
 def keywords(proposal: Proposal) -> Iterator[Finding]:
     """Every keyword is one that the schema's own draft knows; glTF's own begin with ``gltf_``."""
-    for file in proposal.library.own.values():
+    for file in proposal.schemas.own.values():
         if file.draft is None:
             continue
         for place in subschemas(file.tree):
@@ -75,7 +75,7 @@ def _is_open(parent: Mapping[str, Any] | None, schema: Mapping[str, Any]) -> boo
 
 def identifiers(proposal: Proposal) -> Iterator[Finding]:
     """Where a schema has a ``$id``, it is the file's name, by which others refer to it."""
-    for file in proposal.library.own.values():
+    for file in proposal.schemas.own.values():
         named = file.tree.get("$id")
         if isinstance(named, str) and named.rpartition("/")[2] != file.name:
             told = f"its $id is {shown(named)}, and others refer to it as {shown(file.name)}"

@@ -13,8 +13,8 @@ from typing import Final
 from gltf_iri.asset.words import shown
 from gltf_iri.proposal.finding import Finding
 from gltf_iri.proposal.folder import Proposal, scope_of
-from gltf_iri.proposal.library import CORE_NAMES, SUFFIX
 from gltf_iri.proposal.objects import extension_objects
+from gltf_iri.proposal.schema_set import CORE_NAMES, SUFFIX
 
 __all__ = ["EXTENSION_NAME", "extension_name", "file_names", "property_names", "titles"]
 
@@ -42,7 +42,7 @@ def extension_name(proposal: Proposal) -> Iterator[Finding]:
 
 def file_names(proposal: Proposal) -> Iterator[Finding]:
     """A schema of the extension's own objects is called ``<scope>.<NAME>.schema.json``."""
-    files = proposal.library.own.values()
+    files = proposal.schemas.own.values()
     if files and not proposal.entries:
         told = f"no file is called <scope>.{proposal.name}{SUFFIX}, such as material.{proposal.name}{SUFFIX}"
         yield Finding("file-name", told, next(iter(files)).where)
@@ -65,7 +65,7 @@ def file_names(proposal: Proposal) -> Iterator[Finding]:
 
 def titles(proposal: Proposal) -> Iterator[Finding]:
     """Every schema has a title, and the extension's own objects are titled with its name."""
-    for file in proposal.library.own.values():
+    for file in proposal.schemas.own.values():
         title = file.tree.get("title")
         if not isinstance(title, str) or not title.strip():
             yield Finding("title-missing", "it has no title", file.at(""))

@@ -12,7 +12,7 @@ from typing import Any
 from gltf_iri.asset.words import join
 from gltf_iri.proposal.bounds import MAX_EXPANSION, MAX_OBJECTS
 from gltf_iri.proposal.folder import Proposal, scope_of
-from gltf_iri.proposal.library import TEXTURES, DanglingError, Library, SchemaFile, Target
+from gltf_iri.proposal.schema_set import TEXTURES, DanglingError, SchemaFile, SchemaSet, Target
 
 __all__ = ["INHERITED", "Kind", "ObjectType", "Property", "extension_objects"]
 __all__ += ["item_kind", "texts", "views"]
@@ -97,7 +97,7 @@ class ObjectType:
         return "/".join(self.path) or f"the extension's object ({self.file.name})"
 
 
-def views(library: Library, target: Target) -> tuple[Target, ...]:
+def views(schemas: SchemaSet, target: Target) -> tuple[Target, ...]:
     """Return a schema and all that hold with it, through ``$ref`` and ``allOf``, each once."""
     found: dict[tuple[str, str], Target] = {}
     waiting = [target]
@@ -110,7 +110,7 @@ def views(library: Library, target: Target) -> tuple[Target, ...]:
         inside: list[Target] = []
         if "$ref" in now.schema:
             with suppress(DanglingError):  # another finding tells of it
-                inside.append(library.find(now.file, now.pointer, now.schema["$ref"]))
+                inside.append(schemas.find(now.file, now.pointer, now.schema["$ref"]))
         members = now.schema.get("allOf")
         for position, member in enumerate(members if isinstance(members, list) else []):
             if isinstance(member, dict):
@@ -137,16 +137,16 @@ def extension_objects(proposal: Proposal) -> list[ObjectType]:
             key = (target.file.name, target.pointer)
             if key in seen:
                 continue
-            kind = _object(proposal.library, scope, path, target)
+            kind = _object(proposal.schemas, scope, path, target)
             found.append(kind)
             for name, inner in kind.properties.items():
-                for step, inside in _inside(proposal.library, inner):
+                for step, inside in _inside(proposal.schemas, inner):
                     waiting.append(((*path, name, *step), inside, seen | {key}))
     return found
 
 
-def _object(library: Library, scope: str, path: tuple[str, ...], target: Target) -> ObjectType:
-    seen = views(library, target)
+def _object(schemas: SchemaSet, scope: str, path: tuple[str, ...], target: Target) -> ObjectType:
+    seen = views(schemas, target)
     own = [view for view in seen if not view.file.is_stand_in]
     required = {
         name
@@ -163,7 +163,7 @@ def _object(library: Library, scope: str, path: tuple[str, ...], target: Target)
             if name in INHERITED or redeclared or name in properties or not isinstance(schema, dict):
                 continue
             pointer = join(join(view.pointer, "properties"), name)
-            held = views(library, Target(view.file, pointer, schema))
+            held = views(schemas, Target(view.file, pointer, schema))
             properties[name] = Property(name, view.file, pointer, schema, held, name in required)
     return ObjectType(scope, path, target.file, target.pointer, seen, properties)
 
@@ -173,7 +173,7 @@ def _members(view: Target) -> dict[str, Any]:
     return members if isinstance(members, dict) else {}
 
 
-def _inside(library: Library, owner: Property) -> Iterator[tuple[tuple[str, ...], Target]]:
+def _inside(schemas: SchemaSet, owner: Property) -> Iterator[tuple[tuple[str, ...], Target]]:
     """Yield the objects that a property holds: itself, or the items of an array, each with its steps."""
     if owner.kind is Kind.OBJECT and any(_members(v) for v in owner.views if not v.file.is_stand_in):
         yield (), Target(owner.file, owner.pointer, owner.schema)
@@ -182,18 +182,18 @@ def _inside(library: Library, owner: Property) -> Iterator[tuple[tuple[str, ...]
             items = view.schema.get("items")
             if isinstance(items, dict):
                 target = Target(view.file, join(view.pointer, "items"), items)
-                held = views(library, target)
+                held = views(schemas, target)
                 if _kind(held) is Kind.OBJECT and any(_members(v) for v in held if not v.file.is_stand_in):
                     yield ("{}",), target
                 return
 
 
-def item_kind(library: Library, owner: Property) -> Kind:
+def item_kind(schemas: SchemaSet, owner: Property) -> Kind:
     """Return what the items of an array are; ANY where that is not stated."""
     for view in owner.views:
         items = view.schema.get("items")
         if isinstance(items, dict):
-            return _kind(views(library, Target(view.file, join(view.pointer, "items"), items)))
+            return _kind(views(schemas, Target(view.file, join(view.pointer, "items"), items)))
     return Kind.ANY
 
 

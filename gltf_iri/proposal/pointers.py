@@ -116,7 +116,7 @@ _SCALARS: Final[Mapping[Kind, str]] = {Kind.NUMBER: "float", Kind.INTEGER: "int"
 
 
 def _of_array(proposal: Proposal, owner: Property, pointer: str) -> dict[str, _Expected]:
-    items = item_kind(proposal.library, owner)
+    items = item_kind(proposal.schemas, owner)
     length = _Expected("int", owner.where, False)
     if items is not Kind.NUMBER:
         return {f"{pointer}.length": length}

@@ -9,7 +9,7 @@ from gltf_iri.proposal.bounds import MAX_EXPANSION, MAX_REF_DEPTH
 from gltf_iri.proposal.drafts import ANNOTATIONS
 from gltf_iri.proposal.finding import Finding
 from gltf_iri.proposal.folder import Proposal
-from gltf_iri.proposal.library import DanglingError, SchemaFile
+from gltf_iri.proposal.schema_set import DanglingError, SchemaFile
 from gltf_iri.proposal.schema_walk import IN_PLACE, Place, children, subschemas
 
 __all__ = ["expansion", "resolved", "siblings", "unused"]
@@ -17,12 +17,12 @@ __all__ = ["expansion", "resolved", "siblings", "unused"]
 
 def resolved(proposal: Proposal) -> Iterator[Finding]:
     """Every ``$ref`` leads to a schema of the folder or of glTF itself."""
-    for file in proposal.library.own.values():
+    for file in proposal.schemas.own.values():
         for place in subschemas(file.tree):
             if "$ref" not in place.schema:
                 continue
             try:
-                target = proposal.library.find(file, place.pointer, place.schema["$ref"])
+                target = proposal.schemas.find(file, place.pointer, place.schema["$ref"])
             except DanglingError as error:
                 yield error.finding
                 continue
@@ -33,7 +33,7 @@ def resolved(proposal: Proposal) -> Iterator[Finding]:
 
 def siblings(proposal: Proposal) -> Iterator[Finding]:
     """Beside a ``$ref`` stands nothing that the draft would ignore."""
-    for file in proposal.library.own.values():
+    for file in proposal.schemas.own.values():
         if file.draft is None or not file.draft.ignores_ref_siblings:
             continue
         for place in subschemas(file.tree):
@@ -45,20 +45,20 @@ def siblings(proposal: Proposal) -> Iterator[Finding]:
 
 def unused(proposal: Proposal) -> Iterator[Finding]:
     """Every schema is an extension's own object or a part of one."""
-    library = proposal.library
+    schemas = proposal.schemas
     reached = {entry.name for entry in proposal.entries}
     waiting = list(proposal.entries)
     while waiting:
         file = waiting.pop()
         for place in subschemas(file.tree):
             try:
-                name = library.find(file, place.pointer, place.schema["$ref"]).file.name
+                name = schemas.find(file, place.pointer, place.schema["$ref"]).file.name
             except (DanglingError, KeyError):
                 continue
-            if name in library.own and name not in reached:
+            if name in schemas.own and name not in reached:
                 reached.add(name)
-                waiting.append(library.own[name])
-    for file in library.own.values():
+                waiting.append(schemas.own[name])
+    for file in schemas.own.values():
         if proposal.entries and file.name not in reached:
             yield Finding("schema-unused", "no schema of the extension's own objects leads to it", file.where)
 
@@ -66,7 +66,7 @@ def unused(proposal: Proposal) -> Iterator[Finding]:
 def expansion(proposal: Proposal) -> Iterator[Finding]:
     """References that judge the same value again come to an end, and to a small one."""
     sizes: dict[int, int] = {}
-    for file in proposal.library.own.values():
+    for file in proposal.schemas.own.values():
         for place in subschemas(file.tree):
             finding = _Expansion(proposal, sizes).of(file, place, ())
             if isinstance(finding, Finding):
@@ -78,7 +78,7 @@ class _Expansion:
     """How many subschemas one stands for once its references are followed, each node measured once."""
 
     def __init__(self, proposal: Proposal, sizes: dict[int, int]) -> None:
-        self._library = proposal.library
+        self._schemas = proposal.schemas
         self._sizes = sizes
 
     def of(self, file: SchemaFile, place: Place, above: tuple[int, ...]) -> int | Finding:
@@ -109,7 +109,7 @@ class _Expansion:
                 yield file, child
         if "$ref" in place.schema:
             try:
-                target = self._library.find(file, place.pointer, place.schema["$ref"])
+                target = self._schemas.find(file, place.pointer, place.schema["$ref"])
             except DanglingError:
                 return
             yield target.file, Place(target.pointer, target.schema)

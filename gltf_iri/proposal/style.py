@@ -8,7 +8,6 @@ from typing import Any
 from gltf_iri.asset.words import join, shown
 from gltf_iri.proposal.finding import Finding
 from gltf_iri.proposal.folder import Proposal
-from gltf_iri.proposal.library import BASES, Target
 from gltf_iri.proposal.objects import (
     INHERITED,
     Kind,
@@ -18,6 +17,7 @@ from gltf_iri.proposal.objects import (
     texts,
     views,
 )
+from gltf_iri.proposal.schema_set import BASES, Target
 from gltf_iri.proposal.schema_walk import subschemas
 
 __all__ = ["descriptions", "objects", "openness", "ranges"]
@@ -56,7 +56,7 @@ def _each_once(proposal: Proposal) -> Iterator[ObjectType]:
         if key not in seen:
             seen.add(key)
             yield ObjectType(
-                kind.scope, kind.path, base.file, base.pointer, views(proposal.library, base), kind.properties
+                kind.scope, kind.path, base.file, base.pointer, views(proposal.schemas, base), kind.properties
             )
 
 
@@ -79,7 +79,7 @@ def _is_described(proposal: Proposal, owner: Property) -> bool:
     for view in owner.views:
         items = view.schema.get("items")
         if isinstance(items, dict):
-            held += views(proposal.library, Target(view.file, join(view.pointer, "items"), items))
+            held += views(proposal.schemas, Target(view.file, join(view.pointer, "items"), items))
     return any(texts(view.schema) for view in held if not view.file.is_stand_in)
 
 
@@ -93,7 +93,7 @@ def _is_typed(owner: Property) -> bool:
 
 def openness(proposal: Proposal) -> Iterator[Finding]:
     """No object forbids additional properties."""
-    for file in proposal.library.own.values():
+    for file in proposal.schemas.own.values():
         for place in subschemas(file.tree):
             for keyword in ("additionalProperties", "unevaluatedProperties"):
                 if place.schema.get(keyword) is False:

@@ -128,7 +128,7 @@ def _compare_type(proposal: Proposal, owner: Property, row: _Row, where: str) ->
     if not cell or owner.kind is Kind.ANY:
         return
     is_array = owner.kind is Kind.ARRAY
-    base = item_kind(proposal.library, owner) if is_array else owner.kind
+    base = item_kind(proposal.schemas, owner) if is_array else owner.kind
     words = [_WORDS[word] for word in re.findall(r"[a-z]+", cell) if word in _WORDS]
     size = _SIZE.search(cell)
     says_array = size is not None or "array" in cell

@@ -165,6 +165,14 @@ def test_layered_mixes_the_surface_without_layers_in(
         assert "0.25 of the surface without layers" in shown.err
 
 
+def test_textures_are_told_as_left_out_only_where_their_factors_count(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked = [beetle(tmp_path, braggTexture={"index": 0}), *TABLE, "--cos", "1"]
+    assert told(capsys, *asked)["textures_left_out"] == []
+    assert told(capsys, *asked, "--layered")["textures_left_out"] == ["bragg-texture"]
+
+
 def test_transmission_leaves_less_to_come_back(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = Path(beetle(tmp_path))
     asset = json.loads(path.read_text())

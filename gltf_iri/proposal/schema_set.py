@@ -22,7 +22,7 @@ from gltf_iri.proposal.drafts import DRAFTS, Draft, draft_of
 from gltf_iri.proposal.finding import Finding
 from gltf_iri.proposal.word_list import words
 
-__all__ = ["BASES", "CORE_NAMES", "SUFFIX", "TEXTURES", "DanglingError", "Library", "SchemaFile", "Target"]
+__all__ = ["BASES", "CORE_NAMES", "SUFFIX", "TEXTURES", "DanglingError", "SchemaFile", "SchemaSet", "Target"]
 
 SUFFIX: Final = ".schema.json"
 
@@ -77,7 +77,7 @@ class DanglingError(Exception):
         super().__init__(finding.message)
 
 
-class Library:
+class SchemaSet:
     """The folder's schemas, with the stand-ins behind them."""
 
     def __init__(self, files: Mapping[str, SchemaFile]) -> None:
