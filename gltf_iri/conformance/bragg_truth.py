@@ -11,6 +11,7 @@ from gltf_iri.backends import Backend
 from gltf_iri.conformance.bragg_input import BraggInput
 from gltf_iri.conformance.facet_sum import Passing
 from gltf_iri.conformance.spectral_sum import NotSettledError, Spectra, colour_sum
+from gltf_iri.material.ior import Ior
 from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.optics.layer_stack import Sight, coating_transmittance, sight_of
 from gltf_iri.optics.microfacet import d_ggx, v_smith_ggx_correlated
@@ -21,9 +22,6 @@ __all__ = ["VALUES_MAX", "WAVELENGTHS_NM", "bragg_outputs"]
 Float64 = NDArray[np.float64]
 
 WAVELENGTHS_NM: Final = (450.0, 550.0, 650.0)
-
-# F₀ of the core material's dielectric, of index 1.5.
-_DIELECTRIC_F0: Final = 0.04
 
 # Reflectances that one row may ask for: a second of them, compiled.
 VALUES_MAX: Final = 5e7
@@ -37,9 +35,8 @@ def bragg_outputs(
     values_max : reflectances of facets that may be asked for, before a row counts as not settled.
     Raises NotSettledError where wavelengths or angles do not converge.
     """
-    # Facets turn about the angle between both: light and viewer outside, bent into the host.
-    core_sight = sight_of(1.0, row.cos_theta_i, row.cos_theta_o, row.cos_phi)
-    core = _core_brdf(row, core_sight)
+    # The core material's facets meet light and viewer outside, those of layers both as they are in the host.
+    core = _core_brdf(row, sight_of(1.0, row.cos_theta_i, row.cos_theta_o, row.cos_phi))
     if not row.facets:
         nothing = ("base_colour", "entering", "transmitted", "coating_reflectance", "stack_brdf")
         lists: dict[str, Any] = {"reflectance": [], "transmittance": [], "layer_colours": []}
@@ -123,7 +120,7 @@ def _core_brdf(row: BraggInput, sight: Sight) -> Float64:
     lobe = d_ggx(sight.n_cross_h_squared, row.base_alpha)
     lobe = lobe * v_smith_ggx_correlated(row.cos_theta_i, row.cos_theta_o, row.base_alpha)
     diffuse = (1.0 - row.transmission) * row.base_colour / np.pi
-    fresnel = f_schlick(_DIELECTRIC_F0, sight.cos_h)
+    fresnel = f_schlick(Ior().f0, sight.cos_h)
     dielectric = (1.0 - fresnel) * diffuse + fresnel * lobe
     metal = lobe * f_schlick(row.base_colour, sight.cos_h)
     return np.asarray((1.0 - row.metallic) * dielectric + row.metallic * metal)

@@ -6,6 +6,7 @@ Vectors are (n, 3), widths α along tangent and bitangent (n,). Along the axes t
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +14,20 @@ from numpy.typing import NDArray
 from gltf_iri.optics.microfacet import N_DOT_V_MIN
 from gltf_iri.optics.visible_normals import draw_facet, facet_slant, mirror_density, mirrored
 
-__all__ = ["Axes", "draw_facet", "mirror_density", "mirrored", "refracted", "shadowing_ratio"]
+__all__ = [
+    "TO_OTHER_SIDE",
+    "Axes",
+    "draw_facet",
+    "mirror_density",
+    "mirrored",
+    "refracted",
+    "shadowing_ratio",
+]
 
 Float64 = NDArray[np.float64]
+
+# Between the axes of both sides of a surface, each with +Z away from it.
+TO_OTHER_SIDE: Final = np.array([1.0, 1.0, -1.0])
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gltf_iri.planning.layer_plan import LayersPlan
-from gltf_iri.reference.facets import draw_facet, mirrored, refracted, shadowing_ratio
+from gltf_iri.reference.facets import TO_OTHER_SIDE, draw_facet, mirrored, refracted, shadowing_ratio
 from gltf_iri.reference.host_directions import in_host
 from gltf_iri.reference.layer_mirrors import LayerMirrors
 from gltf_iri.reference.layers_on import LayersMethod, let_through
@@ -41,7 +41,6 @@ _FACETS: Final = 24
 # A way that is rarely chosen would weigh too much.
 _CHANCE_MIN: Final = 0.05
 
-_TO_OTHER_SIDE: Final = np.array([1.0, 1.0, -1.0])
 _TURNED: Final = np.array([-1.0, -1.0, 1.0])
 
 
@@ -138,7 +137,7 @@ def _through_base(
         if ior is not None:
             bent, squared = refracted(here, facet, np.where(leaves[rows], ior[rows], 1.0 / ior[rows]))
             total = leaves[rows] & (squared <= 0.0)
-            onward = np.where(total[:, None], onward, bent * _TO_OTHER_SIDE)
+            onward = np.where(total[:, None], onward, bent * TO_OTHER_SIDE)
             alone = shadowing_ratio(here, onward, width, width, is_mirrored=False)
             escape = np.where(total, escape, alone)
         is_free = (onward[:, 2] > 0.0) & (rng.random(len(rows)) < escape)

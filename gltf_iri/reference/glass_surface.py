@@ -27,7 +27,7 @@ from gltf_iri.optics.layering import CLEARCOAT_F0, transmitted_share
 from gltf_iri.optics.microfacet import alpha_ggx, anisotropic_alphas
 from gltf_iri.planning.effects import Effect
 from gltf_iri.planning.material_plan import MaterialPlan
-from gltf_iri.reference.facets import Axes, draw_facet, mirrored, refracted, shadowing_ratio
+from gltf_iri.reference.facets import TO_OTHER_SIDE, Axes, draw_facet, mirrored, refracted, shadowing_ratio
 from gltf_iri.reference.film_on import FilmOn
 from gltf_iri.reference.glass_layers import LocalCrossing, cross_layers
 from gltf_iri.reference.layers import clearcoat_reflectance, fibre_passage
@@ -41,8 +41,6 @@ Mask = NDArray[np.bool_]
 
 # Facets in a row that a path may meet on one surface; of the roughest glass's light 1e-5 would meet more.
 _FACETS: Final = 24
-
-_TO_OTHER_SIDE: Final = np.array([1.0, 1.0, -1.0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +74,7 @@ def cross(
     weight = local.weight
     if plan.calls_for(Effect.SHEEN):
         weight = weight * np.where(leaves, 1.0, fibre_passage(surface, surface.n_dot_v))[:, None]
-    direction = local.direction * np.where(local.passes[:, None], _TO_OTHER_SIDE, 1.0)
+    direction = local.direction * np.where(local.passes[:, None], TO_OTHER_SIDE, 1.0)
     crossing = Crossing(axes.to_world(direction), weight, local.passes)
     return _under_coat(crossing, surface, leaves, rng) if plan.calls_for(Effect.CLEARCOAT) else crossing
 
@@ -167,7 +165,7 @@ def _meet_facet(
     is_thick = plan.calls_for(Effect.VOLUME)
     if is_thick:
         bent, squared = refracted(back, facet, np.where(is_inside, ior, 1.0 / ior))
-        passage = bent * _TO_OTHER_SIDE
+        passage = bent * TO_OTHER_SIDE
         outside = np.where(is_inside, np.sqrt(np.clip(squared, 0.0, 1.0)), cosine)
         is_total = is_inside & (squared <= 0.0)
     else:
