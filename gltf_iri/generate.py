@@ -20,6 +20,7 @@ from gltf_iri.rendering.constants import (
     film_constants_glsl,
     layer_constants_glsl,
 )
+from gltf_iri.validation.table_source import tables_json
 
 __all__ = ["GENERATED", "main", "stale_files", "write_files"]
 
@@ -33,6 +34,7 @@ GENERATED: Mapping[str, Callable[[], str]] = MappingProxyType(
         "shaders/generated/material.glsl": interface_glsl,
         f"gltf_iri/colour/data/{D65_FILE}": d65_csv,
         f"gltf_iri/colour/data/{OBSERVER_FILE}": observer_csv,
+        "gltf_iri/validation/tables.json": tables_json,
         "spec/properties.md": properties_markdown,
     }
 )

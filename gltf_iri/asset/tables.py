@@ -71,6 +71,8 @@ class Row:
     max_items: int | None = None
     is_unique: bool = False
     needs: str = ""  # a sibling without which the property means nothing
+    also_allowed: float | None = None  # one legal number outside [low, high]
+    pattern: str = ""  # the whole of a TEXT matches this regular expression
 
 
 def _text(

@@ -16,7 +16,18 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 
 # From the door down to the bytes: a folder may import those after it, never those before it.
 ROAD = (
-    *("cli", "gallery", "bench", "conformance", "comparison", "rendering", "reference", "arrays", "budgets"),
+    *(
+        "cli",
+        "gallery",
+        "bench",
+        "conformance",
+        "validation",
+        "comparison",
+        "rendering",
+        "reference",
+        "arrays",
+        "budgets",
+    ),
     *("baking", "evaluation", "planning", "scene", "material", "asset"),
 )
 # Open to every folder; these may import each other and nothing of the road.
@@ -59,6 +70,7 @@ OPENERS = {
     "samples/collection.py",  # the program's own pictures, and the index of an earlier collection
     "baking/cache.py",  # tables that it wrote itself, and the sources that filled them
     "planning/costs.py",  # the program's own map of costs
+    "validation/tables.py",  # the program's own tables
     "cli/main.py",  # the null device
     "generate.py",  # the checkout that it runs in
 }

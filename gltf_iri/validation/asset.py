@@ -1,0 +1,57 @@
+"""What every rule may ask about the file that is checked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gltf_iri.validation.collector import Collector
+from gltf_iri.validation.entry import Entry
+from gltf_iri.validation.options import Options
+from gltf_iri.validation.walk import Walk
+
+__all__ = ["Asset"]
+
+
+class Asset:
+    """A file whose schema was walked.
+
+    root : the checked glTF object.
+    entries : all objects, each after those that it holds; the root is last.
+    declared : the names in extensionsUsed.
+    folder : where files that the asset names lie; None where there is no such place.
+    is_glb, binary : whether the file is a GLB, and the bytes of its BIN chunk.
+    """
+
+    def __init__(
+        self,
+        root: Entry,
+        walk: Walk,
+        collector: Collector,
+        options: Options,
+        declared: frozenset[str],
+        *,
+        folder: Path | None,
+        is_glb: bool,
+        binary: memoryview | None,
+    ) -> None:
+        self.root = root
+        self.entries = walk.entries
+        self.references = walk.references
+        self.collector = collector
+        self.options = options
+        self.declared = declared
+        self.folder = folder
+        self.is_glb = is_glb
+        self.binary = binary
+
+    def array(self, name: str) -> list[Entry | None]:
+        """Return the array that indices of `name` mean: "meshes", or "KHR_lights_punctual.lights"."""
+        extension, _, key = name.rpartition(".")
+        holder = self.root.extensions.get(extension) if extension else self.root
+        found: list[Entry | None] = holder.get(key, []) if holder is not None else []
+        return found
+
+    def get(self, name: str, index: int | None) -> Entry | None:
+        """Return entry `index` of an array, or None where there is none or it is broken."""
+        entries = self.array(name)
+        return entries[index] if index is not None and 0 <= index < len(entries) else None

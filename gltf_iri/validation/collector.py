@@ -1,0 +1,51 @@
+"""Gathers the remarks of one file as the user wants to hear them; enough of them stop the work."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from gltf_iri.validation.issue import ERROR, Issue
+from gltf_iri.validation.options import Options
+
+__all__ = ["Collector", "EnoughError"]
+
+# What is kept where the user wants all remarks: a hostile file could call for a thousand million.
+_MOST_KEPT = 1_000_000
+
+
+class EnoughError(Exception):
+    """The user's limit of remarks is reached: no more work on this file."""
+
+
+class Collector:
+    """The remarks so far, in the order they were made."""
+
+    __slots__ = ("_ignore", "_most", "_only", "_override", "has_errors", "is_truncated", "issues")
+
+    def __init__(self, options: Options) -> None:
+        self._ignore = options.ignore
+        self._only = options.only
+        self._override = options.override
+        self._most = options.max_issues or _MOST_KEPT
+        self.issues: list[Issue] = []
+        self.is_truncated = False
+        self.has_errors = False
+
+    def add(self, issue: Issue) -> None:
+        """Keep a remark, unless the user does not want to hear it; raises EnoughError beyond the limit."""
+        code = issue.code
+        if code in self._ignore or (self._only and code not in self._only):
+            return
+        if len(self.issues) >= self._most:
+            self.is_truncated = True
+            raise EnoughError
+        if code in self._override:
+            issue = issue._replace(severity=self._override[code])
+        if issue.severity == ERROR:
+            self.has_errors = True
+        self.issues.append(issue)
+
+    def add_all(self, issues: Iterable[Issue]) -> None:
+        """Keep each of `issues`, which may be made as they are taken."""
+        for issue in issues:
+            self.add(issue)

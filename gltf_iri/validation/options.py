@@ -1,0 +1,41 @@
+"""What the user wants to hear: codes left out, severities changed, how many remarks at most."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+__all__ = ["DEFAULT_MAX_ISSUES", "Options"]
+
+# The Khronos validator's own default.
+DEFAULT_MAX_ISSUES = 100
+
+
+class Options:
+    """How a file is judged; the same names as the Khronos validator's configuration.
+
+    ignore, only : codes to leave out, or to tell alone; not both.
+    override : code to severity, 0 (error) to 3 (hint).
+    max_issues : stop after so many remarks; 0 for all.
+    optics : measure, in ΔE, what the remarks about films and layers mean; takes numpy and seconds.
+    resources : read buffers and pictures, and look at what they hold.
+    """
+
+    __slots__ = ("ignore", "max_issues", "only", "optics", "override", "resources")
+
+    def __init__(
+        self,
+        *,
+        ignore: frozenset[str] = frozenset(),
+        only: frozenset[str] = frozenset(),
+        override: Mapping[str, int] = MappingProxyType({}),
+        max_issues: int = DEFAULT_MAX_ISSUES,
+        optics: bool = False,
+        resources: bool = True,
+    ) -> None:
+        self.ignore = ignore
+        self.only = only
+        self.override = dict(override)
+        self.max_issues = max_issues
+        self.optics = optics
+        self.resources = resources

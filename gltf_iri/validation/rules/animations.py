@@ -1,0 +1,9 @@
+"""Animations: channels, samplers and the accessors of keyframes."""
+
+from __future__ import annotations
+
+from gltf_iri.validation.rules.registry import Rules
+
+__all__ = ["RULES"]
+
+RULES: Rules = {}

@@ -1,0 +1,9 @@
+"""The asset object: which glTF the file is."""
+
+from __future__ import annotations
+
+from gltf_iri.validation.rules.registry import Rules
+
+__all__ = ["RULES"]
+
+RULES: Rules = {}

@@ -1,0 +1,47 @@
+"""Gathers all rules, in the order in which they speak."""
+
+from __future__ import annotations
+
+from gltf_iri.validation.rules import (
+    accessors,
+    animation_pointer,
+    animations,
+    asset_version,
+    bragg,
+    cameras,
+    extension_lists,
+    iridescence,
+    lights,
+    materials,
+    meshes,
+    nodes,
+    skins,
+    textures,
+    variants,
+)
+from gltf_iri.validation.rules.registry import add_data_rules, add_rules
+
+__all__: list[str] = []
+
+_MODULES = (
+    asset_version,
+    extension_lists,
+    accessors,
+    animations,
+    cameras,
+    meshes,
+    nodes,
+    skins,
+    textures,
+    materials,
+    lights,
+    variants,
+    animation_pointer,
+    iridescence,
+    bragg,
+)
+
+
+for _module in _MODULES:
+    add_rules(_module.RULES)
+    add_data_rules(getattr(_module, "DATA_RULES", {}))

@@ -1,0 +1,9 @@
+"""Nodes and scenes: transforms, trees, and what hangs on them."""
+
+from __future__ import annotations
+
+from gltf_iri.validation.rules.registry import Rules
+
+__all__ = ["RULES"]
+
+RULES: Rules = {}

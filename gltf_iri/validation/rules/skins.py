@@ -1,0 +1,9 @@
+"""Skins: joints, skeletons, inverse bind matrices."""
+
+from __future__ import annotations
+
+from gltf_iri.validation.rules.registry import Rules
+
+__all__ = ["RULES"]
+
+RULES: Rules = {}

@@ -1,0 +1,139 @@
+"""The tables that the walk reads: every object's fields, and where each extension stands.
+
+They are stated in `gltf_iri.asset`, `gltf_iri.material` and `gltf_iri.scene`; tables.json is written from
+there (`table_source`).
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import Any
+
+from gltf_iri.validation.entry import Entry
+
+__all__ = ["EXTENSIONS", "TABLES", "Extension", "Field", "Table", "add_tables", "value_of"]
+
+
+class Field:
+    """One property: the row of `gltf_iri.asset.tables.Row` with the same names, ready to be read."""
+
+    __slots__ = (
+        *("also_allowed", "choices", "default", "has_range", "high", "is_unique", "key", "kind"),
+        *("low", "low_is_excluded", "max_items", "min_items", "multiple_of", "needs", "pattern"),
+        *("refers_to", "required", "shape", "table"),
+    )
+
+    def __init__(
+        self,
+        key: str,
+        kind: str,
+        shape: str = "ONE",
+        *,
+        required: bool = False,
+        default: Any = None,
+        low: float | None = None,
+        high: float | None = None,
+        low_is_excluded: bool = False,
+        also_allowed: float | None = None,
+        multiple_of: int | None = None,
+        choices: tuple[int | str, ...] = (),
+        refers_to: str = "",
+        table: str = "",
+        min_items: int = 1,
+        max_items: int | None = None,
+        is_unique: bool = False,
+        needs: str = "",
+        pattern: str = "",
+    ) -> None:
+        self.key = key
+        self.kind = kind
+        self.shape = shape
+        self.required = required
+        self.default = default
+        self.low = low
+        self.high = high
+        self.low_is_excluded = low_is_excluded
+        self.also_allowed = also_allowed
+        self.multiple_of = multiple_of
+        self.choices = choices
+        self.refers_to = refers_to
+        self.table = table
+        self.min_items = min_items
+        self.max_items = max_items
+        self.is_unique = is_unique
+        self.needs = needs
+        self.pattern = re.compile(pattern) if pattern else None
+        self.has_range = low is not None or high is not None
+
+
+class Table:
+    """One kind of object: its fields by key, and which must or must not stand together."""
+
+    __slots__ = ("exclusive", "fields", "is_named_by_type", "name", "needing", "one_of", "required")
+
+    def __init__(
+        self,
+        name: str,
+        fields: list[Field],
+        *,
+        exclusive: tuple[tuple[str, tuple[str, ...]], ...] = (),
+        one_of: tuple[str, ...] = (),
+        is_named_by_type: bool = False,
+    ) -> None:
+        self.name = name
+        self.fields = {field.key: field for field in fields}
+        self.required = tuple(field.key for field in fields if field.required)
+        self.needing = tuple((field.key, field.needs) for field in fields if field.needs)
+        self.exclusive = exclusive
+        self.one_of = one_of
+        self.is_named_by_type = is_named_by_type
+
+
+class Extension:
+    """Where an extension's objects stand: name of the carrier's table to the table of what it carries."""
+
+    __slots__ = ("is_required", "name", "objects", "stands_alone")
+
+    def __init__(
+        self, name: str, objects: dict[str, str], *, is_required: bool = False, stands_alone: bool = False
+    ) -> None:
+        self.name = name
+        self.objects = objects
+        self.is_required = is_required
+        self.stands_alone = stands_alone
+
+
+def add_tables(stated: dict[str, Any]) -> None:
+    """Add objects and extensions in the form of tables.json; ValueError where one is known already."""
+    known = (stated["objects"].keys() & TABLES) | (stated["extensions"].keys() & EXTENSIONS)
+    if known:
+        raise ValueError(f"{min(known)} is known already")
+    exclusive, one_of = stated.get("exclusive", {}), stated.get("oneOf", {})
+    by_type = stated.get("namedByType", ())
+    for name, rows in stated["objects"].items():
+        TABLES[name] = Table(
+            name,
+            [Field(**row) for row in rows],
+            exclusive=tuple((key, tuple(others)) for key, others in exclusive.get(name, ())),
+            one_of=tuple(one_of.get(name, ())),
+            is_named_by_type=name in by_type,
+        )
+    for name, extension in stated["extensions"].items():
+        EXTENSIONS[name] = Extension(
+            name,
+            extension["objects"],
+            is_required=extension.get("isRequired", False),
+            stands_alone=extension.get("standsAlone", False),
+        )
+
+
+def value_of(entry: Entry, key: str) -> Any:
+    """Return a property of `entry`, or where it is absent the default that glTF states, if it has one."""
+    return entry[key] if key in entry else TABLES[entry.table].fields[key].default
+
+
+TABLES: dict[str, Table] = {}
+EXTENSIONS: dict[str, Extension] = {}
+add_tables(json.loads(Path(__file__).with_name("tables.json").read_text(encoding="utf-8")))
