@@ -71,6 +71,7 @@ OPENERS = {
     "baking/cache.py",  # tables that it wrote itself, and the sources that filled them
     "planning/costs.py",  # the program's own map of costs
     "validation/tables.py",  # the program's own tables
+    "validation/results_file.py",  # the results of a run that may be broken off and go on
     "cli/main.py",  # the null device
     "generate.py",  # the checkout that it runs in
 }
