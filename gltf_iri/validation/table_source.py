@@ -108,6 +108,8 @@ def _as_row(row: Property, table: str) -> Row:
         kind,
         Shape.ARRAY if is_list or is_vector else Shape.ONE,
         required=row.required,
+        # Of a text and of a list, empty says that it is absent.
+        default=None if row.default in ("", ()) else row.default,
         low=row.low,
         high=row.high,
         low_is_excluded=row.low_is_excluded,
