@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-__all__ = ["join", "kind_of", "shown"]
+__all__ = ["join", "kind_of", "printable", "shown"]
 
 _LONGEST = 60
 
@@ -35,6 +35,18 @@ def shown(value: object, longest: int = _LONGEST) -> str:
 def kind_of(value: object) -> str:
     """Name the JSON type of a parsed value."""
     return _KINDS[type(value)]
+
+
+def printable(text: str) -> str:
+    """Return `text` on one line and without control characters or lone surrogates.
+
+    Names come from untrusted files; an escape sequence in one would control the terminal.
+    """
+    if text.isprintable():
+        return text
+    return "".join(
+        c if c.isprintable() else " " if c.isspace() else "\N{REPLACEMENT CHARACTER}" for c in text
+    )
 
 
 def _shortened(text: str, longest: int = _LONGEST) -> str:

@@ -16,6 +16,8 @@ from typing import Any
 
 import click
 
+from gltf_iri.asset.words import printable
+
 __all__ = ["file_argument", "json_option", "material_label", "note", "print_json", "print_table", "printable"]
 __all__ += ["progress", "working"]
 
@@ -26,16 +28,6 @@ json_option = click.option("--json", "as_json", is_flag=True, help="Print one JS
 file_argument = click.argument(
     "file", type=click.Path(exists=True, dir_okay=False, readable=True, path_type=Path)
 )
-
-
-def printable(text: str) -> str:
-    """Return `text` on one line and without control characters or lone surrogates.
-
-    Names come from untrusted files; an escape sequence in one would control the terminal.
-    """
-    return "".join(
-        c if c.isprintable() else " " if c.isspace() else "\N{REPLACEMENT CHARACTER}" for c in text
-    )
 
 
 def material_label(index: int, name: str) -> str:

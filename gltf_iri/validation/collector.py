@@ -20,12 +20,13 @@ class EnoughError(Exception):
 class Collector:
     """The remarks so far, in the order they were made."""
 
-    __slots__ = ("_ignore", "_most", "_only", "_override", "has_errors", "is_truncated", "issues")
+    __slots__ = ("_ignore", "_least", "_most", "_only", "_override", "has_errors", "is_truncated", "issues")
 
     def __init__(self, options: Options) -> None:
         self._ignore = options.ignore
         self._only = options.only
         self._override = options.override
+        self._least = options.least
         self._most = options.max_issues or _MOST_KEPT
         self.issues: list[Issue] = []
         self.is_truncated = False
@@ -36,11 +37,13 @@ class Collector:
         code = issue.code
         if code in self._ignore or (self._only and code not in self._only):
             return
+        if code in self._override:
+            issue = issue._replace(severity=self._override[code])
+        if issue.severity > self._least:
+            return
         if len(self.issues) >= self._most:
             self.is_truncated = True
             raise EnoughError
-        if code in self._override:
-            issue = issue._replace(severity=self._override[code])
         if issue.severity == ERROR:
             self.has_errors = True
         self.issues.append(issue)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from gltf_iri.validation.issue import HINT
+
 __all__ = ["DEFAULT_MAX_ISSUES", "Options"]
 
 # The Khronos validator's own default.
@@ -16,12 +18,13 @@ class Options:
 
     ignore, only : codes to leave out, or to tell alone; not both.
     override : code to severity, 0 (error) to 3 (hint).
+    least : the least severity to tell, as a number; after `override`.
     max_issues : stop after so many remarks; 0 for all.
     optics : measure, in ΔE, what the remarks about films and layers mean; takes numpy and seconds.
     resources : read buffers and pictures, and look at what they hold.
     """
 
-    __slots__ = ("ignore", "max_issues", "only", "optics", "override", "resources")
+    __slots__ = ("ignore", "least", "max_issues", "only", "optics", "override", "resources")
 
     def __init__(
         self,
@@ -29,6 +32,7 @@ class Options:
         ignore: frozenset[str] = frozenset(),
         only: frozenset[str] = frozenset(),
         override: Mapping[str, int] = MappingProxyType({}),
+        least: int = HINT,
         max_issues: int = DEFAULT_MAX_ISSUES,
         optics: bool = False,
         resources: bool = True,
@@ -36,6 +40,7 @@ class Options:
         self.ignore = ignore
         self.only = only
         self.override = dict(override)
+        self.least = least
         self.max_issues = max_issues
         self.optics = optics
         self.resources = resources
