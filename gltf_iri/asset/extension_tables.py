@@ -58,10 +58,10 @@ EXTENSION_OBJECTS: Final[Mapping[str, tuple[Row, ...]]] = {
     ),
     "KHR_materials_pbrSpecularGlossiness": (
         _color("diffuseFactor", 1.0, 1.0, 1.0, 1.0),
-        Row("diffuseTexture", Kind.OBJECT, table="textureInfo"),
+        Row("diffuseTexture", Kind.OBJECT, table="textureInfo", colour_space="srgb"),
         _color("specularFactor", 1.0, 1.0, 1.0),
         _factor("glossinessFactor"),
-        Row("specularGlossinessTexture", Kind.OBJECT, table="textureInfo"),
+        Row("specularGlossinessTexture", Kind.OBJECT, table="textureInfo", colour_space="srgb"),
     ),
     "KHR_materials_variants": (
         Row("variants", Kind.OBJECT, Shape.ARRAY, required=True, table="KHR_materials_variants.variant"),

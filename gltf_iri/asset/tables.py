@@ -73,6 +73,7 @@ class Row:
     needs: str = ""  # a sibling without which the property means nothing
     also_allowed: float | None = None  # one legal number outside [low, high]
     pattern: str = ""  # the whole of a TEXT matches this regular expression
+    colour_space: str = ""  # of a texture: "srgb" where its colours are stored so
 
 
 def _text(

@@ -119,6 +119,7 @@ def _as_row(row: Property, table: str) -> Row:
         table=table,
         min_items=row.length if is_vector else 1,
         max_items=row.length if is_vector else None,
+        colour_space="srgb" if row.colour_space == "srgb" else "",
     )
 
 
@@ -134,7 +135,8 @@ def _told(row: Row) -> Iterator[tuple[str, Any]]:
         yield "shape", row.shape.name
     plain = Row(row.key, row.kind, row.shape)
     names = ("required", "low", "high", "low_is_excluded", "also_allowed", "multiple_of", "choices")
-    for name in (*names, "refers_to", "table", "min_items", "max_items", "is_unique", "needs", "pattern"):
+    names += ("refers_to", "table", "min_items", "max_items", "is_unique", "needs", "pattern", "colour_space")
+    for name in names:
         value = getattr(row, name)
         is_said_by_link = name == "needs" and value == row.refers_to
         if value != getattr(plain, name) and not is_said_by_link:

@@ -20,8 +20,8 @@ class Field:
     """One property: the row of `gltf_iri.asset.tables.Row` with the same names, ready to be read."""
 
     __slots__ = (
-        *("also_allowed", "choices", "default", "has_range", "high", "is_unique", "key", "kind"),
-        *("low", "low_is_excluded", "max_items", "min_items", "multiple_of", "needs", "pattern"),
+        *("also_allowed", "choices", "colour_space", "default", "has_range", "high", "is_unique", "key"),
+        *("kind", "low", "low_is_excluded", "max_items", "min_items", "multiple_of", "needs", "pattern"),
         *("refers_to", "required", "shape", "table"),
     )
 
@@ -46,6 +46,7 @@ class Field:
         is_unique: bool = False,
         needs: str = "",
         pattern: str = "",
+        colour_space: str = "",
     ) -> None:
         self.key = key
         self.kind = kind
@@ -65,6 +66,7 @@ class Field:
         self.is_unique = is_unique
         self.needs = needs
         self.pattern = re.compile(pattern) if pattern else None
+        self.colour_space = colour_space
         self.has_range = low is not None or high is not None
 
 
