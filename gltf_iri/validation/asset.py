@@ -7,6 +7,7 @@ from pathlib import Path
 from gltf_iri.validation.collector import Collector
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.options import Options
+from gltf_iri.validation.resources import Resources
 from gltf_iri.validation.walk import Walk
 
 __all__ = ["Asset"]
@@ -20,6 +21,7 @@ class Asset:
     declared : the names in extensionsUsed.
     folder : where files that the asset names lie; None where there is no such place.
     is_glb, binary : whether the file is a GLB, and the bytes of its BIN chunk.
+    resources : the bytes of buffers and pictures.
     """
 
     def __init__(
@@ -43,6 +45,7 @@ class Asset:
         self.folder = folder
         self.is_glb = is_glb
         self.binary = binary
+        self.resources = Resources(self)
 
     def array(self, name: str) -> list[Entry | None]:
         """Return the array that indices of `name` mean: "meshes", or "KHR_lights_punctual.lights"."""

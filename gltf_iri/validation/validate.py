@@ -15,8 +15,9 @@ from gltf_iri.validation.collector import Collector, EnoughError
 from gltf_iri.validation.links import check_links
 from gltf_iri.validation.options import Options
 from gltf_iri.validation.report import Report
+from gltf_iri.validation.resources import check_resources
 from gltf_iri.validation.rules import every as _every  # noqa: F401  # registers the rules
-from gltf_iri.validation.rules.registry import RULES
+from gltf_iri.validation.rules.registry import DATA_RULES, RULES
 from gltf_iri.validation.walk import Walk
 
 __all__ = ["validate"]
@@ -61,5 +62,9 @@ def _check(data: bytes, collector: Collector, options: Options, folder: Path | N
     check_links(asset)
     for entry in asset.entries:
         for rule in RULES.get(entry.table, ()):
+            collector.add_all(rule(entry, asset))
+    check_resources(asset)
+    for entry in asset.entries:
+        for rule in DATA_RULES.get(entry.table, ()):
             collector.add_all(rule(entry, asset))
     return None

@@ -15,8 +15,10 @@ from gltf_iri.validation.rules import (
     materials,
     meshes,
     nodes,
+    pointers,
     skins,
     textures,
+    uris,
     variants,
 )
 from gltf_iri.validation.rules.registry import add_data_rules, add_rules
@@ -26,6 +28,7 @@ __all__: list[str] = []
 _MODULES = (
     asset_version,
     extension_lists,
+    uris,
     accessors,
     animations,
     cameras,
@@ -37,6 +40,7 @@ _MODULES = (
     lights,
     variants,
     animation_pointer,
+    pointers,
     iridescence,
     bragg,
 )
