@@ -133,9 +133,9 @@ def text(key: str, default: str, about: str) -> Any:
     return _field(Property(Kind.TEXT, key, about, default))
 
 
-def choice(key: str, default: str, choices: tuple[str, ...], about: str) -> Any:
-    """State a property whose value is one of a few strings."""
-    return _field(Property(Kind.CHOICE, key, about, default, choices=choices))
+def choice(key: str, default: str | None, choices: tuple[str, ...], about: str) -> Any:
+    """State a property whose value is one of a few strings; with None for the default it is required."""
+    return _field(Property(Kind.CHOICE, key, about, default, choices=choices, required=default is None))
 
 
 def index(key: str, default: int | None, about: str) -> Any:

@@ -8,6 +8,7 @@ row are ignored, and extensions without a row are collected by name.
 from __future__ import annotations
 
 import json
+import struct
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import Any, Protocol, TypeVar
@@ -134,7 +135,11 @@ def _whole_number(row: Property, value: Any, pointer: str) -> int:
 def _is_inside(row: Property, number: float) -> bool:
     if row.low is not None and (number < row.low or (row.low_is_excluded and number == row.low)):
         return False
-    return row.high is None or number <= row.high
+    if row.high is None or number <= row.high:
+        return True
+    # Exporters pass numbers through single precision, which rounds a bound such as π/2 up.
+    (rounded,) = struct.unpack("<f", struct.pack("<f", row.high))
+    return number <= float(rounded)
 
 
 def _vector(row: Property, value: Any, pointer: str) -> tuple[float, ...]:

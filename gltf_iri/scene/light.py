@@ -26,8 +26,8 @@ CONE_COSINE_MIN: Final = 1e-3
 # Keeps 1/d² and the direction finite at a point of the surface on which the light itself lies.
 LIGHT_DISTANCE_MIN_M: Final = 1e-6
 
-# π/2 as float32 holds it lies a little above π/2, and exporters pass angles through float32.
-_RIGHT_ANGLE_RAD: Final = float(np.float32(math.pi / 2.0))
+# A cone that opens to the whole half-space; the inner one is narrower than that.
+_RIGHT_ANGLE_RAD: Final = math.pi / 2.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +35,12 @@ class Spot:
     """The cone of a spot light."""
 
     inner_cone_rad: float = number(
-        "innerConeAngle", 0.0, "Angle from the axis where the light begins to fade.", low=0.0, unit="rad"
+        "innerConeAngle",
+        0.0,
+        "Angle from the axis where the light begins to fade.",
+        low=0.0,
+        high=math.nextafter(_RIGHT_ANGLE_RAD, 0.0),
+        unit="rad",
     )
     outer_cone_rad: float = number(
         "outerConeAngle",
@@ -55,8 +60,8 @@ class PunctualLight:
     EXTENSION: ClassVar[str] = "KHR_lights_punctual"
     KINDS: ClassVar[tuple[str, ...]] = ("directional", "point", "spot")
 
+    kind: str = choice("type", None, KINDS, "What the light is; it has no default.")
     name: str = text("name", "", "Name for people.")
-    kind: str = choice("type", "", KINDS, "What the light is; it has no default.")
     color: tuple[float, float, float] = vector(
         "color", (1.0, 1.0, 1.0), "Colour of the light.", low=0.0, high=1.0, colour_space="linear"
     )
@@ -101,8 +106,6 @@ def light_of_node(document: Json, node: Json, world: Float64, pointer: str) -> L
         )
     where = f"/extensions/{name}/lights/{referred}"
     stated = rows.build(PunctualLight, listed[referred], where)
-    if not stated.kind:
-        raise AssetError("the required property 'type' is missing; add it", pointer=where)
     if stated.kind == "spot" and not stated.spot.inner_cone_rad < stated.spot.outer_cone_rad:
         raise AssetError("innerConeAngle must be less than outerConeAngle", pointer=f"{where}/spot")
     return _placed(stated, world, str(node.get("name", "")), pointer)

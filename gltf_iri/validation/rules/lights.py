@@ -1,9 +1,41 @@
-"""KHR_lights_punctual."""
+"""KHR_lights_punctual: what a light states belongs to its type."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from gltf_iri.validation.asset import Asset
+from gltf_iri.validation.codes import issue
+from gltf_iri.validation.entry import Entry
+from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.registry import Rules
+from gltf_iri.validation.tables import value_of
 
 __all__ = ["RULES"]
 
-RULES: Rules = {}
+
+def light_states_what_its_type_reads(entry: Entry, asset: Asset) -> Iterator[Issue]:
+    """A spot light has a cone and no other light has; parallel light has no range."""
+    if entry.get("type") == "spot":
+        if "spot" not in entry.raw:
+            yield issue("UNDEFINED_PROPERTY", entry.pointer, property="spot")
+    elif "spot" in entry.raw:
+        yield issue("EXTRA_PROPERTY", entry.at("spot"))
+    if entry.get("type") == "directional" and "range" in entry:
+        yield issue("EXTRA_PROPERTY", entry.at("range"))
+
+
+def cone_widens(entry: Entry, asset: Asset) -> Iterator[Issue]:
+    """A spot fades from the inner angle to the outer; an angle that is broken is told of already."""
+    light, inner, outer = entry.parent, *(value_of(entry, f"{name}ConeAngle") for name in ("inner", "outer"))
+    is_broken = any(key in entry.raw and key not in entry for key in ("innerConeAngle", "outerConeAngle"))
+    is_spot = light is not None and light.get("type") == "spot"
+    if is_spot and not is_broken and outer <= inner:
+        pointer = entry.at("outerConeAngle")
+        yield issue("KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", pointer, inner=inner, outer=outer)
+
+
+RULES: Rules = {
+    "KHR_lights_punctual.light": (light_states_what_its_type_reads,),
+    "KHR_lights_punctual.light.spot": (cone_widens,),
+}

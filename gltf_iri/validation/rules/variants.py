@@ -1,9 +1,30 @@
-"""KHR_materials_variants."""
+"""KHR_materials_variants: which variant gives a primitive which material."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from gltf_iri.validation.asset import Asset
+from gltf_iri.validation.codes import issue
+from gltf_iri.validation.entry import Entry
+from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.registry import Rules
 
 __all__ = ["RULES"]
 
-RULES: Rules = {}
+
+def variant_has_one_material(entry: Entry, asset: Asset) -> Iterator[Issue]:
+    """Each variant stands once in all mappings of a primitive; one that does not exist counts too."""
+    seen: set[float] = set()
+    for mapping in entry.get("mappings", ()):
+        if mapping is None or "variants" not in mapping:
+            continue
+        for position, index in enumerate(mapping.raw["variants"]):
+            if isinstance(index, (int, float)) and not isinstance(index, bool) and index >= 0:
+                if index in seen:
+                    pointer = mapping.at("variants", position)
+                    yield issue("KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT", pointer)
+                seen.add(index)
+
+
+RULES: Rules = {"KHR_materials_variants.primitive": (variant_has_one_material,)}
