@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from gltf_iri.material.bragg import BRAGG_LAYERS_MAX
+from gltf_iri.material.bragg_limits import BRAGG_LAYERS_MAX
 from gltf_iri.optics.microfacet import N_DOT_V_MIN, alpha_ggx
 from gltf_iri.planning.material_plan import MaterialPlan
 from gltf_iri.reference.surface import Surface

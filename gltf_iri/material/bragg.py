@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import ClassVar, Final
+from typing import ClassVar
 
 from gltf_iri.material.fields import nested_list, number, texture_info, whole_number
 from gltf_iri.material.texture import TextureInfo
 
-__all__ = ["BRAGG_CELLS_MAX", "BRAGG_LAYERS_MAX", "Bragg", "MirrorLayer"]
-
-# What every implementation must accept, and all that this one draws; a file may hold more.
-BRAGG_LAYERS_MAX: Final = 4
-BRAGG_CELLS_MAX: Final = 1000
+__all__ = ["Bragg", "MirrorLayer"]
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Final
 
-from gltf_iri.material.bragg import BRAGG_CELLS_MAX, BRAGG_LAYERS_MAX, Bragg, MirrorLayer
+from gltf_iri.material.bragg import Bragg, MirrorLayer
+from gltf_iri.material.bragg_limits import (
+    BRAGG_CELLS_MAX,
+    BRAGG_IOR_MAX,
+    BRAGG_LAYERS_MAX,
+    BRAGG_PERIOD_MAX_NM,
+)
 from gltf_iri.material.iridescence import Iridescence
 from gltf_iri.material.material import SPECULAR_GLOSSINESS, Material
 from gltf_iri.planning.core import metal_verdict
@@ -19,12 +25,6 @@ if TYPE_CHECKING:
     from gltf_iri.asset.document import Document
 
 __all__ = ["bragg_verdicts", "layer_reflects", "period_texel", "verdicts_below"]
-
-# Cells so thick colour nothing: their fringes are finer than any light that is seen is pure.
-_PERIOD_MAX_NM: Final = 1e5
-
-# No transparent film is as dense.
-_IOR_MAX: Final = 10.0
 
 _EFFECTS: Final = (Effect.BRAGG, Effect.BRAGG_TEXTURE, Effect.BRAGG_PERIOD_TEXTURE)
 
@@ -130,8 +130,12 @@ def _beyond(bragg: Bragg) -> str:
     if cells > BRAGG_CELLS_MAX:
         return f"{cells:g} cells are more than the {BRAGG_CELLS_MAX}"
     periods = [nm for layer in bragg.layers for nm in _periods_nm(layer, bragg)]
-    if max(periods) > _PERIOD_MAX_NM:
-        return f"a period of {max(periods):g} nm is beyond the {_PERIOD_MAX_NM:g} nm"
+    if max(periods) > BRAGG_PERIOD_MAX_NM:
+        return f"a period of {max(periods):g} nm is beyond the {BRAGG_PERIOD_MAX_NM:g} nm"
     of_films = [n for layer in bragg.layers for n in (layer.first_ior(1.0), layer.ior_2)]
     index = max(bragg.host_ior, *of_films)
-    return f"an index of {index:g} is beyond the indices up to {_IOR_MAX:g}" if index > _IOR_MAX else ""
+    return (
+        f"an index of {index:g} is beyond the indices up to {BRAGG_IOR_MAX:g}"
+        if index > BRAGG_IOR_MAX
+        else ""
+    )

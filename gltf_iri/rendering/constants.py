@@ -13,7 +13,7 @@ from gltf_iri.colour.sensitivity import GAUSSIANS, SENSITIVITY_WHITE, Gaussian
 from gltf_iri.colour.sensitivity_table import END_NM
 from gltf_iri.colour.spaces import XYZ_TO_REC709
 from gltf_iri.evaluation import fourier, khr, khr_guarded
-from gltf_iri.material.bragg import BRAGG_LAYERS_MAX
+from gltf_iri.material.bragg_limits import BRAGG_LAYERS_MAX
 from gltf_iri.optics import granier_heidrich, landmarks, layering, microfacet, sheen
 from gltf_iri.optics.quadrature import gauss_unit
 from gltf_iri.rendering import environment_light, optics_tables, spread_table

@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from gltf_iri.material.bragg import BRAGG_CELLS_MAX, BRAGG_LAYERS_MAX, Bragg, MirrorLayer
+from gltf_iri.material.bragg import Bragg, MirrorLayer
+from gltf_iri.material.bragg_limits import BRAGG_CELLS_MAX, BRAGG_LAYERS_MAX
 from gltf_iri.material.fields import Kind, Property, properties
 
 SCHEMAS = Path(__file__).resolve().parents[2] / "spec" / "EXT_materials_bragg" / "schema"
