@@ -11,8 +11,8 @@ __all__ = [
     "BRAGG_PERIOD_MAX_NM",
 ]
 
-# EXT_materials_bragg, "Limits of Implementations": what every implementation must accept; a file may hold more.
-# Of layers and cells it is all that this one draws, too.
+# EXT_materials_bragg, "Limits of Implementations": what every implementation must accept, where files may
+# hold more. Of layers and cells it is all that this one draws, too.
 BRAGG_LAYERS_MAX = 4
 BRAGG_CELLS_MAX = 1000
 BRAGG_IOR_ACCEPTED = 4.0

@@ -134,8 +134,6 @@ def _beyond(bragg: Bragg) -> str:
         return f"a period of {max(periods):g} nm is beyond the {BRAGG_PERIOD_MAX_NM:g} nm"
     of_films = [n for layer in bragg.layers for n in (layer.first_ior(1.0), layer.ior_2)]
     index = max(bragg.host_ior, *of_films)
-    return (
-        f"an index of {index:g} is beyond the indices up to {BRAGG_IOR_MAX:g}"
-        if index > BRAGG_IOR_MAX
-        else ""
-    )
+    if index > BRAGG_IOR_MAX:
+        return f"an index of {index:g} is beyond the indices up to {BRAGG_IOR_MAX:g}"
+    return ""
