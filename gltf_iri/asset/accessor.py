@@ -12,9 +12,9 @@ from typing import Any, Final
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.asset.formats import FLOAT, TYPE_SHAPE, UNSIGNED_INT, column_bytes, used_bytes
 from gltf_iri.asset.guard import Budget
 from gltf_iri.asset.limits import MAX_BUFFERLESS_COUNT
-from gltf_iri.asset.tables import TYPE_SHAPE
 from gltf_iri.errors import AssetError
 
 __all__ = ["BufferView", "Views", "read_accessor"]
@@ -28,10 +28,6 @@ _DTYPES: Final[Mapping[int, str]] = {
     5125: "<u4",
     5126: "<f4",
 }
-_FLOAT: Final = 5126
-_UNSIGNED_INT: Final = 5125
-
-_COLUMN_ALIGNMENT: Final = 4  # bytes; §3.6.2.4: each column of a matrix starts on such a boundary
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,8 +52,7 @@ class _Layout:
 
     @property
     def column_bytes(self) -> int:
-        used = self.rows * self.dtype.itemsize
-        return used if self.columns == 1 else -(-used // _COLUMN_ALIGNMENT) * _COLUMN_ALIGNMENT
+        return column_bytes(self.columns, self.rows, self.dtype.itemsize)
 
     @property
     def element_bytes(self) -> int:
@@ -67,7 +62,7 @@ class _Layout:
     @property
     def used_bytes(self) -> int:
         """Extent of the last element: the padding of its last column need not be there."""
-        return (self.columns - 1) * self.column_bytes + self.rows * self.dtype.itemsize
+        return used_bytes(self.columns, self.rows, self.dtype.itemsize)
 
 
 def read_accessor(
@@ -84,7 +79,7 @@ def read_accessor(
     layout = _Layout(np.dtype(_DTYPES[component]), columns, rows)
     count = accessor["count"]
     is_normalized = accessor.get("normalized", False)
-    if is_normalized and component == _UNSIGNED_INT:
+    if is_normalized and component == UNSIGNED_INT:
         raise AssetError("32-bit integers cannot be normalised", pointer=pointer)
 
     if "bufferView" in accessor:
@@ -105,7 +100,7 @@ def read_accessor(
     )  # a copy: what the file holds stays as it is
     if "sparse" in accessor:
         _apply_sparse(values, accessor["sparse"], layout, f"{pointer}/sparse", views)
-    if component == _FLOAT:
+    if component == FLOAT:
         _refuse_non_finite(values, pointer)
     elif is_normalized:
         values = _normalised(values)

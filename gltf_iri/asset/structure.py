@@ -10,9 +10,10 @@ import re
 from collections.abc import Iterator
 from typing import Any, Final
 
+from gltf_iri.asset.formats import COMPONENT_BYTES
 from gltf_iri.asset.hierarchy import check_hierarchy
 from gltf_iri.asset.limits import MAX_JSON_INTEGER, MAX_NUMBER
-from gltf_iri.asset.tables import COMPONENT_BYTES, EXCLUSIVE, NAMED_BY_TYPE, OBJECTS, ONE_OF, Kind, Row, Shape
+from gltf_iri.asset.tables import EXCLUSIVE, NAMED_BY_TYPE, OBJECTS, ONE_OF, Kind, Row, Shape
 from gltf_iri.asset.words import join, kind_of, shown
 from gltf_iri.errors import AssetError
 

@@ -12,22 +12,9 @@ from dataclasses import dataclass, replace
 from enum import Enum, auto
 from typing import Any, Final
 
-__all__ = ["COMPONENT_BYTES", "EXCLUSIVE", "NAMED_BY_TYPE", "OBJECTS", "ONE_OF", "TYPE_SHAPE"]
-__all__ += ["Kind", "Row", "Shape"]
+from gltf_iri.asset.formats import COMPONENT_BYTES, TYPE_SHAPE
 
-# Accessor component types (OpenGL enums) to the bytes of one component.
-COMPONENT_BYTES: Final[Mapping[int, int]] = {5120: 1, 5121: 1, 5122: 2, 5123: 2, 5125: 4, 5126: 4}
-
-# Accessor types to (columns, rows).
-TYPE_SHAPE: Final[Mapping[str, tuple[int, int]]] = {
-    "SCALAR": (1, 1),
-    "VEC2": (1, 2),
-    "VEC3": (1, 3),
-    "VEC4": (1, 4),
-    "MAT2": (2, 2),
-    "MAT3": (3, 3),
-    "MAT4": (4, 4),
-}
+__all__ = ["EXCLUSIVE", "NAMED_BY_TYPE", "OBJECTS", "ONE_OF", "Kind", "Row", "Shape"]
 
 
 class Kind(Enum):
