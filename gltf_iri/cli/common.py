@@ -109,6 +109,7 @@ def progress(what: str, total: int) -> Iterator[Callable[[], None]]:
     from rich.console import Console
     from rich.progress import Progress
 
-    with Progress(console=Console(stderr=True), transient=True) as bar:
+    # What is printed meanwhile stands above the bar; in a pipe, it must stay on its own way.
+    with Progress(console=Console(stderr=True), transient=True, redirect_stdout=sys.stdout.isatty()) as bar:
         shown = bar.add_task(what, total=total)
         yield lambda: bar.advance(shown)

@@ -33,6 +33,7 @@ VERBS: Mapping[str, str] = MappingProxyType(
         "render": "Draw a file to a picture, still or turning, without a window.",
         "compare": "Hold GLSL, Python and spectral truth against each other.",
         "gallery": "Draw many files onto one page, with plan and error beside each.",
+        "validate": "Check glTF files with the Khronos codes, and films with our own.",
         "schema": "Check a proposal for a glTF extension, its schemas and its README.",
         "bench": "Time and error of every method.",
         "samples": "Write the sample assets.",
