@@ -20,6 +20,7 @@ from gltf_iri.rendering.constants import (
     film_constants_glsl,
     layer_constants_glsl,
 )
+from gltf_iri.validation.codes_table import codes_markdown
 from gltf_iri.validation.table_source import tables_json
 
 __all__ = ["GENERATED", "main", "stale_files", "write_files"]
@@ -36,6 +37,7 @@ GENERATED: Mapping[str, Callable[[], str]] = MappingProxyType(
         f"gltf_iri/colour/data/{OBSERVER_FILE}": observer_csv,
         "gltf_iri/validation/tables.json": tables_json,
         "spec/properties.md": properties_markdown,
+        "spec/validator-codes.md": codes_markdown,
     }
 )
 

@@ -42,7 +42,7 @@ ENTRANCES = {"__init__", "__main__", "generate"}
 
 SLOW_TO_LOAD = {
     *("scipy", "colour", "matplotlib", "moderngl", "glcontext", "pygltflib", "trimesh"),
-    *("OpenEXR", "jinja2", "PIL", "rich", "embreex", "numba", "jsonschema"),
+    *("OpenEXR", "jinja2", "PIL", "rich", "embreex", "numba", "jsonschema", "yaml"),
 }
 # Its modules import numba at the top, so they themselves are imported where they are used.
 COMPILED = "compiled"
@@ -78,7 +78,7 @@ OPENERS = {
 
 TOP_LEVEL = {
     *("pyproject.toml", "README.md", "LICENSE", "CHANGELOG.md", "CONTRIBUTING.md", "Makefile"),
-    *(".ci", ".gitignore", "gltf_iri", "shaders", "samples", "spec", "tests"),
+    *(".ci", ".gitignore", ".pre-commit-hooks.yaml", "gltf_iri", "shaders", "samples", "spec", "tests"),
 }
 
 
