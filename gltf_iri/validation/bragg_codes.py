@@ -20,8 +20,8 @@ BRAGG_CODES: dict[str, tuple[int, str]] = {
     ),
     "IRI_BRAGG_UNUSED": (INFORMATION, "No material has layers."),
     "IRI_BRAGG_NO_LAYERS": (INFORMATION, "Without layers the extension has no effect."),
-    "IRI_BRAGG_FACTOR_ZERO": (INFORMATION, "braggFactor is 0{by_default}: the layers have no effect."),
-    "IRI_BRAGG_NO_MIRROR": (INFORMATION, "The second film reflects nothing: {reason}."),
+    "IRI_BRAGG_FACTOR_ZERO": (WARNING, "braggFactor is 0{by_default}: the layers have no effect."),
+    "IRI_BRAGG_NO_MIRROR": (WARNING, "The second film reflects nothing: {reason}."),
     "IRI_BRAGG_ONE_FILM": (
         INFORMATION,
         "fill is 0: the cells merge into one film of ior2, {cells} periods thick.",

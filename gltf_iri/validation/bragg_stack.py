@@ -15,6 +15,9 @@ __all__ = ["EXTENSION", "Layer", "Stack", "stacks"]
 EXTENSION = "EXT_materials_bragg"
 _PERIOD_TEXTURE = "braggPeriodTexture"
 
+# JSON's integers have no end, and floats do.
+_GREATEST = 1e300
+
 Tokens = tuple[str, ...]
 
 
@@ -92,4 +95,4 @@ def number(entry: Entry, key: str) -> float | None:
     if key in entry.raw and key not in entry:
         return None
     value: Any = value_of(entry, key)
-    return float(value) if value is not None else None
+    return float(min(value, _GREATEST)) if value is not None else None

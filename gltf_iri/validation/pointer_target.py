@@ -139,7 +139,7 @@ class _Search:
     def _morph_targets(self, raw: dict[str, Any]) -> int:
         mesh = raw
         if self._tokens[0] == "nodes":
-            meshes = self._root.get("meshes")
+            meshes: Any = self._root.get("meshes")
             index: Any = raw.get("mesh")
             is_there = (
                 isinstance(meshes, list) and isinstance(index, int | float) and 0 <= index < len(meshes)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from gltf_iri.asset.words import shown
 from gltf_iri.material.bragg_limits import (
     BRAGG_CELLS_MAX,
     BRAGG_IOR_ACCEPTED,
@@ -63,8 +64,8 @@ def _first_indices(stack: Stack) -> Iterator[Issue]:
     """Tell of films that bend light which goes on to something that does not forget its direction."""
     host = stack.host_ior
     for layer in stack.layers:
-        if not layer.states_ior1 or layer.ior1 is None or host is None or layer.ior1 == host:
-            continue
+        if layer.ior1 is None or host is None or layer.ior1 == host:
+            continue  # what is broken is told of already
         if layer.position < stack.count - 1:
             reason = "only the last layer may have another"
         else:
@@ -113,7 +114,7 @@ def _beyond(entry: Entry, key: str, value: float, accepted: float, drawn: float)
     return issue(
         "IRI_BRAGG_BEYOND_LIMITS",
         entry.at(key),
-        value=f"{value:g}",
+        value=shown(value),
         accepted=f"{accepted:g}",
         drawn=f"{drawn:g}",
     )

@@ -21,6 +21,9 @@ _SEEN_NM = (360.0, 830.0)
 # within CIEDE2000 0.9 of the grey of their luminance; at 10 µm within 2.4, at 2 µm within 18.
 _GREY_NM = 2e4
 
+# Indices that single precision cannot tell apart: exporters write 1.33 as 1.3300000429153442.
+_SAME_INDEX = 1e-6
+
 _OF_FILMS = ("ior1", "ior2", "fill", "periodMinimum", "periodMaximum")
 
 
@@ -81,7 +84,7 @@ def _mirror(layer: Layer, host_ior: float | None) -> Iterator[Issue]:
 
 
 def _idle(layer: Layer, ior1: float, ior2: float, fill: float, periods_nm: tuple[float, ...]) -> str:
-    if ior1 == ior2 and not layer.is_animated("ior1", "ior2"):
+    if abs(ior1 - ior2) < _SAME_INDEX and not layer.is_animated("ior1", "ior2"):
         return f"both films have the index {ior1:g}"
     if fill == 1.0 and not layer.is_animated("fill"):
         return "fill is 1, so that it has no thickness"

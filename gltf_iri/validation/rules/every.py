@@ -15,6 +15,7 @@ from gltf_iri.validation.rules import (
     materials,
     meshes,
     nodes,
+    pointer_values,
     pointers,
     skins,
     textures,
@@ -41,6 +42,7 @@ _MODULES = (
     variants,
     animation_pointer,
     pointers,
+    pointer_values,
     iridescence,
     bragg,
 )

@@ -18,29 +18,37 @@ from gltf_iri.validation.pointer_target import Target, Unresolved, resolve
 from gltf_iri.validation.rules.registry import Rules
 from gltf_iri.validation.tables import value_of
 
-__all__ = ["RULES", "animated_properties", "sampler_of"]
+__all__ = ["RULES", "animated_properties", "pointed_channels", "sampler_of", "shown_tokens"]
 
 _NAME = "KHR_animation_pointer"
 _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 _UNSIGNED_BYTE = 5121
 
-# Pointers into extensions differ at their ends.
 _LONGEST_POINTER = 200
 
 # Values of one keyframe: the spline's have a tangent before and one after.
 _PER_KEYFRAME = {"CUBICSPLINE": 3}
 
 
+def pointed_channels(
+    animation: Entry, asset: Asset
+) -> Iterator[tuple[int, Entry, Entry, Target | Unresolved]]:
+    """Yield position, channel, extension object and target of each channel of `animation` with a pointer."""
+    for position, channel in enumerate(animation.get("channels", ())):
+        pointer = _pointer_of(channel) if channel is not None else None
+        if pointer is not None:
+            yield position, channel, pointer, resolve(asset.root, pointer["pointer"])
+
+
 def animated_properties(asset: Asset) -> frozenset[tuple[str, ...]]:
     """Return the tokens of all pointers of all animations; those that lead nowhere do no harm."""
-    found = set()
-    for animation in asset.array("animations"):
-        for channel in animation.get("channels", ()) if animation is not None else ():
-            pointer = _pointer_of(channel) if channel is not None else None
-            target = resolve(asset.root, pointer["pointer"]) if pointer is not None else None
-            if isinstance(target, Target):
-                found.add(target.tokens)
-    return frozenset(found)
+    return frozenset(
+        target.tokens
+        for animation in asset.array("animations")
+        if animation is not None
+        for _, _, _, target in pointed_channels(animation, asset)
+        if isinstance(target, Target)
+    )
 
 
 def sampler_of(channel: Entry) -> Entry | None:
@@ -51,27 +59,39 @@ def sampler_of(channel: Entry) -> Entry | None:
     return sampler
 
 
+def shown_tokens(tokens: tuple[str, ...]) -> str:
+    """Return the pointer of `tokens` for people; those into extensions differ at their ends."""
+    return shown("/" + "/".join(tokens), _LONGEST_POINTER)
+
+
 def _channels(animation: Entry, asset: Asset) -> Iterator[Issue]:
     seen = _Seen()
     for position, channel in enumerate(animation.get("channels", ())):
-        if channel is None or "target" not in channel:
+        place = channel.get("target") if channel is not None else None
+        if place is None:
             continue
         pointer = _pointer_of(channel)
         if pointer is not None:
-            target = resolve(asset.root, pointer["pointer"])
-            if isinstance(target, Unresolved):
-                told = shown(pointer["pointer"], _LONGEST_POINTER)
-                yield issue(target.code, pointer.at("pointer"), target=told, reason=target.reason)
-                continue
-            yield from seen.check(target.tokens, position, pointer.at("pointer"), is_pointer=True)
-            yield from _property(pointer, target)
-            yield from _values(channel, target, asset)
-        elif "node" in channel["target"] and "path" in channel["target"]:
-            place = channel["target"]
+            yield from _pointed(position, channel, pointer, seen, asset)
+        elif "node" in place and "path" in place:
             tokens = ("nodes", str(place["node"]), place["path"])
             yield from seen.check(tokens, position, place.pointer, is_pointer=False)
-        elif channel["target"].raw.get("path") == "pointer" and not _has_pointer(channel["target"]):
-            yield issue("IRI_POINTER_MISSING", channel["target"].at("path"))
+        elif place.raw.get("path") == "pointer" and not _has_pointer(place):
+            yield issue("IRI_POINTER_MISSING", place.at("path"))
+
+
+def _pointed(position: int, channel: Entry, pointer: Entry, seen: _Seen, asset: Asset) -> Iterator[Issue]:
+    place, target = pointer.at("pointer"), resolve(asset.root, pointer["pointer"])
+    if isinstance(target, Unresolved):
+        yield issue(
+            target.code, place, target=shown(pointer["pointer"], _LONGEST_POINTER), reason=target.reason
+        )
+        return
+    yield from seen.check(target.tokens, position, place, is_pointer=True)
+    of_node = len(target.tokens) == 3 and target.tokens[0] == "nodes"
+    if of_node and target.tokens[2] != "weights" and "matrix" in target.holder:
+        yield issue("IRI_POINTER_NODE_MATRIX", place, property=target.tokens[2])
+    yield from _values(channel, target, asset)
 
 
 def _pointer_of(channel: Entry) -> Entry | None:
@@ -105,17 +125,7 @@ class _Seen:
         self._whole.setdefault(tokens, here)
         # Two channels without pointers are glTF's own matter.
         if before is not None and (is_pointer or before[1]):
-            yield issue("IRI_POINTER_REPEATED", place, target=_shown(tokens), first=before[0])
-
-
-def _shown(tokens: tuple[str, ...]) -> str:
-    return shown("/" + "/".join(tokens), _LONGEST_POINTER)
-
-
-def _property(pointer: Entry, target: Target) -> Iterator[Issue]:
-    of_node = len(target.tokens) == 3 and target.tokens[0] == "nodes"
-    if of_node and target.tokens[2] != "weights" and "matrix" in target.holder:
-        yield issue("IRI_POINTER_NODE_MATRIX", pointer.at("pointer"), property=target.tokens[2])
+            yield issue("IRI_POINTER_REPEATED", place, target=shown_tokens(tokens), first=before[0])
 
 
 def _values(channel: Entry, target: Target, asset: Asset) -> Iterator[Issue]:
@@ -124,7 +134,7 @@ def _values(channel: Entry, target: Target, asset: Asset) -> Iterator[Issue]:
     output = asset.get("accessors", sampler.get("output")) if sampler is not None else None
     if sampler is None or output is None or target.field is None:
         return
-    told = _shown(target.tokens)
+    told = shown_tokens(target.tokens)
     place = sampler.at("output")
     wanted = _TYPES[target.size]
     component = output.get("componentType")
