@@ -9,22 +9,14 @@ from __future__ import annotations
 
 import json
 import math
-import re
-from typing import Any, Final
+from typing import Any
 
-from gltf_iri.asset.limits import MAX_JSON_BYTES, MAX_JSON_DEPTH, MAX_JSON_INTEGER, MAX_JSON_VALUES
+from gltf_iri.asset.json_parts import BYTE_ORDER_MARK, ESCAPED_SURROGATE, Hooks, reason_of, too_deep_at
+from gltf_iri.asset.limits import MAX_JSON_BYTES, MAX_JSON_DEPTH, MAX_JSON_VALUES
 from gltf_iri.asset.words import join, shown
 from gltf_iri.errors import AssetError
 
 __all__ = ["parse_json"]
-
-_BYTE_ORDER_MARK: Final = b"\xef\xbb\xbf"
-
-# A string or a bracket. An unterminated string runs to the end, which keeps the scan linear for any input.
-_STRINGS_AND_BRACKETS: Final = re.compile(rb'"[^"\\]*+(?:\\.[^"\\]*+)*+"?|[\[\]{}]', re.DOTALL)
-
-_ESCAPED_SURROGATE: Final = re.compile(r"\\u[dD][89a-fA-F]")
-_LONGEST_EXACT_INTEGER: Final = 16  # characters of 2**53, and of −999 999 999 999 999
 
 
 def parse_json(data: bytes | memoryview, start: int = 0) -> Any:
@@ -38,7 +30,7 @@ def parse_json(data: bytes | memoryview, start: int = 0) -> Any:
         if error.offset is not None:
             error.offset += start
         raise
-    hooks = _Hooks()
+    hooks = Hooks()
     try:
         tree = json.loads(
             text,
@@ -49,20 +41,16 @@ def parse_json(data: bytes | memoryview, start: int = 0) -> Any:
         )
     except json.JSONDecodeError as error:
         raise _broken(error, start) from error
-    if hooks.is_suspicious or _ESCAPED_SURROGATE.search(text):
-        hooks.refuse(tree, "")
+    if hooks.is_suspicious or ESCAPED_SURROGATE.search(text):
+        _refuse(tree, "", hooks)
     return tree
 
 
 def _broken(error: json.JSONDecodeError, start: int) -> AssetError:
     if not error.doc.strip():
         return AssetError("there is no JSON, only blank space or nothing", offset=start)
-    # The parser's remarks end in "at", for it goes on to name the place.
-    reason = (error.msg[0].lower() + error.msg[1:]).removesuffix(" at").removesuffix(" starting")
-    return AssetError(
-        f"the JSON is broken in line {error.lineno}, column {error.colno}: {reason}",
-        offset=start + len(error.doc[: error.pos].encode()),
-    )
+    offset = start + len(error.doc[: error.pos].encode())
+    return AssetError(f"the JSON is broken {reason_of(error)}", offset=offset)
 
 
 def _decoded(data: bytes) -> str:
@@ -73,7 +61,7 @@ def _decoded(data: bytes) -> str:
             "move embedded buffers and images into files of their own or write a .glb",
             pointer="",
         )
-    if data.startswith(_BYTE_ORDER_MARK):
+    if data.startswith(BYTE_ORDER_MARK):
         raise AssetError("the JSON starts with a byte order mark; save it as UTF-8 without one", offset=0)
     brackets = data.count(b"[") + data.count(b"{")
     if brackets + data.count(b",") > MAX_JSON_VALUES:
@@ -89,69 +77,29 @@ def _decoded(data: bytes) -> str:
 
 
 def _refuse_depth(data: bytes) -> None:
-    depth = 0
-    for token in _STRINGS_AND_BRACKETS.finditer(data):
-        first = token.group()[:1]
-        if first in b"[{":
-            depth += 1
-            if depth > MAX_JSON_DEPTH:
-                raise AssetError(
-                    f"the JSON is nested deeper than {MAX_JSON_DEPTH} levels, the most that are read",
-                    offset=token.start(),
-                )
-        elif first in b"]}":
-            depth -= 1
+    offset = too_deep_at(data)
+    if offset is not None:
+        raise AssetError(
+            f"the JSON is nested deeper than {MAX_JSON_DEPTH} levels, the most that are read", offset=offset
+        )
 
 
-class _Hooks:
-    """Lets the parser finish and remembers what must not pass, so that the error can say where it stands."""
-
-    def __init__(self) -> None:
-        self.is_suspicious = False
-        # Keeps each object with a repeated key alive, so that its id stays its own.
-        self._repeated: dict[int, tuple[dict[str, Any], str]] = {}
-
-    def object(self, pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        built = dict(pairs)
-        if len(built) < len(pairs):
-            seen: set[str] = set()
-            for key, _ in pairs:
-                if key in seen:
-                    self._repeated[id(built)] = (built, key)
-                    break
-                seen.add(key)
-            self.is_suspicious = True
-        return built
-
-    def number(self, text: str) -> float:
-        value = float(text)
-        if not math.isfinite(value):
-            self.is_suspicious = True
-        return value
-
-    def integer(self, text: str) -> int | float:
-        # Long ones become doubles: int() refuses thousands of digits, and no exact integer is that long.
-        if len(text) > _LONGEST_EXACT_INTEGER:
-            return self.number(text)
-        value = int(text)
-        return value if abs(value) <= MAX_JSON_INTEGER else float(value)
-
-    def refuse(self, value: Any, pointer: str) -> None:
-        """Raise for the first forbidden thing in document order; depth is bounded by MAX_JSON_DEPTH."""
-        if isinstance(value, dict):
-            if id(value) in self._repeated:
-                key = self._repeated[id(value)][1]
-                raise AssetError(f"the key {shown(key)} stands twice; keep one of them", pointer=pointer)
-            for key, child in value.items():
-                self.refuse(key, join(pointer, key))
-                self.refuse(child, join(pointer, key))
-        elif isinstance(value, list):
-            for position, child in enumerate(value):
-                self.refuse(child, join(pointer, position))
-        elif isinstance(value, str):
-            if any("\ud800" <= character <= "\udfff" for character in value):
-                raise AssetError(
-                    "the text holds half of a surrogate pair; write the character whole", pointer=pointer
-                )
-        elif isinstance(value, float) and not math.isfinite(value):
-            raise AssetError("the number is not finite; JSON knows neither NaN nor infinity", pointer=pointer)
+def _refuse(value: Any, pointer: str, hooks: Hooks) -> None:
+    """Raise for the first forbidden thing in document order; depth is bounded by MAX_JSON_DEPTH."""
+    if isinstance(value, dict):
+        key = hooks.repeated(value)
+        if key is not None:
+            raise AssetError(f"the key {shown(key)} stands twice; keep one of them", pointer=pointer)
+        for key, child in value.items():
+            _refuse(key, join(pointer, key), hooks)
+            _refuse(child, join(pointer, key), hooks)
+    elif isinstance(value, list):
+        for position, child in enumerate(value):
+            _refuse(child, join(pointer, position), hooks)
+    elif isinstance(value, str):
+        if any("\ud800" <= character <= "\udfff" for character in value):
+            raise AssetError(
+                "the text holds half of a surrogate pair; write the character whole", pointer=pointer
+            )
+    elif isinstance(value, float) and not math.isfinite(value):
+        raise AssetError("the number is not finite; JSON knows neither NaN nor infinity", pointer=pointer)

@@ -195,6 +195,6 @@ CODES_OF_LINKS: dict[str, tuple[int, str]] = {
     "GLB_UNEXPECTED_END_OF_CHUNK_DATA": (ERROR, "The file ends inside a chunk."),
     "GLB_UNEXPECTED_END_OF_CHUNK_HEADER": (ERROR, "The file ends inside a chunk's header."),
     "GLB_UNEXPECTED_END_OF_HEADER": (ERROR, "The file ends inside the header."),
-    "GLB_UNEXPECTED_FIRST_CHUNK": (ERROR, "The first chunk must be JSON, not {chunk}."),
+    "GLB_UNEXPECTED_FIRST_CHUNK": (ERROR, "The first chunk must be 'JSON', not {chunk}."),
     "GLB_UNKNOWN_CHUNK_TYPE": (WARNING, "glTF knows no chunk {chunk}."),
 }

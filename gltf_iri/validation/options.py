@@ -9,8 +9,8 @@ from gltf_iri.validation.issue import HINT
 
 __all__ = ["DEFAULT_MAX_ISSUES", "Options"]
 
-# The Khronos validator's own default.
-DEFAULT_MAX_ISSUES = 100
+# All: what stops before the last remark may stop before the first error.
+DEFAULT_MAX_ISSUES = 0
 
 
 class Options:
@@ -22,9 +22,10 @@ class Options:
     max_issues : stop after so many remarks; 0 for all.
     optics : measure, in ΔE, what the remarks about films and layers mean; takes numpy and seconds.
     resources : read buffers and pictures, and look at what they hold.
+    raises : let the exceptions of a rule through, for those who write one; otherwise each becomes a remark.
     """
 
-    __slots__ = ("ignore", "least", "max_issues", "only", "optics", "override", "resources")
+    __slots__ = ("ignore", "least", "max_issues", "only", "optics", "override", "raises", "resources")
 
     def __init__(
         self,
@@ -36,6 +37,7 @@ class Options:
         max_issues: int = DEFAULT_MAX_ISSUES,
         optics: bool = False,
         resources: bool = True,
+        raises: bool = False,
     ) -> None:
         self.ignore = ignore
         self.only = only
@@ -44,3 +46,4 @@ class Options:
         self.max_issues = max_issues
         self.optics = optics
         self.resources = resources
+        self.raises = raises

@@ -2,25 +2,35 @@
 
 from __future__ import annotations
 
-import json
 from contextlib import suppress
-from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from gltf_iri.asset.guard import read_given
 from gltf_iri.asset.limits import MAX_FILE_BYTES
 from gltf_iri.validation.asset import Asset
+from gltf_iri.validation.codes import issue
 from gltf_iri.validation.collector import Collector, EnoughError
 from gltf_iri.validation.links import check_links
 from gltf_iri.validation.options import Options
+from gltf_iri.validation.reading import Reading, read
 from gltf_iri.validation.report import Report
 from gltf_iri.validation.resources import check_resources
 from gltf_iri.validation.rules import every as _every  # noqa: F401  # registers the rules
 from gltf_iri.validation.rules.registry import DATA_RULES, RULES
 from gltf_iri.validation.walk import Walk
 
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from os import PathLike
+    from typing import Any
+
+    from gltf_iri.validation.rules.registry import Rules
+
 __all__ = ["validate"]
+
+# An exception may quote what it met, which may be megabytes.
+_LONGEST_REASON = 200
 
 
 def validate(
@@ -36,8 +46,8 @@ def validate(
     uri : what the report calls the file; without it the path as given, or "" for bytes.
     folder : where the files that the asset names lie; without it the file's own folder, for bytes none.
 
-    Raises UsageError where `source` is a path that cannot be read; whatever is wrong with the file is told in
-    the report.
+    Raises UsageError where `source` is a path that cannot be read, AssetError where it is a file beyond all
+    bounds; whatever else is wrong with the file is told in the report.
     """
     chosen = Options() if options is None else options
     if isinstance(source, bytes):
@@ -47,24 +57,68 @@ def validate(
         data = read_given(path, MAX_FILE_BYTES)
         name, place = str(source) if uri is None else uri, path.parent if folder is None else folder
     collector = Collector(chosen)
+    reading: Reading | None = None
     info: dict[str, Any] | None = None
     with suppress(EnoughError):  # the report says that it is cut short
-        info = _check(data, collector, chosen, place)
-    return Report(name, "model/gltf+json", tuple(collector.issues), info, is_truncated=collector.is_truncated)
+        reading = read(data, name, collector.add)
+        if reading.root is not None:
+            info = _judge(reading.root, reading, collector, chosen, place)
+    mime_type = None if reading is None else reading.mime_type
+    return Report(name, mime_type, tuple(collector.issues), info, is_truncated=collector.is_truncated)
 
 
-def _check(data: bytes, collector: Collector, options: Options, folder: Path | None) -> dict[str, Any] | None:
-    raw = json.loads(data)
-    declared = frozenset(name for name in raw.get("extensionsUsed", ()) if isinstance(name, str))
-    walk = Walk(collector, declared)
-    root = walk.object("glTF", raw)
-    asset = Asset(root, walk, collector, options, declared, folder=folder, is_glb=False, binary=None)
-    check_links(asset)
-    for entry in asset.entries:
-        for rule in RULES.get(entry.table, ()):
-            collector.add_all(rule(entry, asset))
-    check_resources(asset)
-    for entry in asset.entries:
-        for rule in DATA_RULES.get(entry.table, ()):
-            collector.add_all(rule(entry, asset))
+def _judge(
+    raw: dict[str, Any], reading: Reading, collector: Collector, options: Options, folder: Path | None
+) -> dict[str, Any] | None:
+    """Run every stage and return the `info` block; of an unknown version the first stages, and no block."""
+    walk = Walk(collector)
+    root = walk.root(raw)
+    asset = Asset(
+        root,
+        walk,
+        collector,
+        options,
+        walk.declared,
+        folder=folder,
+        is_glb=reading.is_glb,
+        binary=reading.binary,
+    )
+    _run(check_links, asset)
+    _follow(RULES, asset)
+    if not walk.is_known_version:
+        return None
+    _run(check_resources, asset)
+    _follow(DATA_RULES, asset)
     return None
+
+
+def _follow(rules: Rules, asset: Asset) -> None:
+    """Ask every rule about every object of its table."""
+    tell_all = asset.collector.add_all
+    for entry in asset.entries:
+        for rule in rules.get(entry.table, ()):
+            try:
+                tell_all(rule(entry, asset))
+            except EnoughError:
+                raise
+            except Exception as error:
+                _tell_failure(rule, error, entry.pointer, asset)
+
+
+def _run(stage: Callable[[Asset], Any], asset: Asset) -> Any:
+    try:
+        return stage(asset)
+    except EnoughError:
+        raise
+    except Exception as error:
+        _tell_failure(stage, error, "", asset)
+        return None
+
+
+def _tell_failure(rule: Callable[..., Any], error: Exception, pointer: str, asset: Asset) -> None:
+    """Make a remark of a rule's own fault: one broken rule must not cost the verdict of all others."""
+    if asset.options.raises:
+        raise error
+    name = getattr(rule, "__qualname__", type(rule).__name__)
+    reason = f"{type(error).__name__}: {error}"[:_LONGEST_REASON]
+    asset.collector.add(issue("IRI_RULE_FAILED", pointer, rule=name, reason=reason))

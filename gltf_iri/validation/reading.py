@@ -1,0 +1,68 @@
+"""A file's bytes become its JSON object and its BIN chunk; everything wrong on the way is told."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gltf_iri.validation.container import MAGIC, read_container
+from gltf_iri.validation.json_text import read_json
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from typing import Any
+
+    from gltf_iri.validation.issue import Issue
+
+__all__ = ["Reading", "is_binary", "json_bytes", "read"]
+
+
+class Reading:
+    """What a file holds.
+
+    root : the glTF object, or None where it cannot be judged.
+    binary : the BIN chunk of a GLB.
+    """
+
+    __slots__ = ("binary", "is_glb", "root")
+
+    def __init__(self, root: dict[str, Any] | None, binary: memoryview | None, *, is_glb: bool) -> None:
+        self.root = root
+        self.binary = binary
+        self.is_glb = is_glb
+
+    @property
+    def mime_type(self) -> str | None:
+        """What the report calls the file; None for JSON that holds no object."""
+        if self.is_glb:
+            return "model/gltf-binary"
+        return None if self.root is None else "model/gltf+json"
+
+
+def is_binary(data: bytes, name: str) -> bool:
+    """Tell whether the file is to be read as a GLB.
+
+    The magic decides, then the name, then the first byte, as for the Khronos validator.
+    """
+    if data.startswith(MAGIC) or name[-4:].lower() == ".glb":
+        return True
+    return data.startswith(MAGIC[:1]) and name[-5:].lower() != ".gltf"
+
+
+def read(data: bytes, name: str, tell: Callable[[Issue], None]) -> Reading:
+    """Read a file; `name` counts only where its bytes leave open what it is."""
+    if not is_binary(data, name):
+        return Reading(read_json(data, tell), None, is_glb=False)
+    container = read_container(data, tell)
+    root = None
+    if container.json is not None:
+        root = read_json(bytes(container.json), tell)
+    # Of a file that breaks off, no part is judged as if it were the whole.
+    return Reading(root if container.is_whole else None, container.binary, is_glb=True)
+
+
+def json_bytes(data: bytes, name: str) -> bytes:
+    """Return the JSON text of a file; b"" where there is none."""
+    if not is_binary(data, name):
+        return data
+    found = read_container(data, lambda _: None).json
+    return b"" if found is None else bytes(found)
