@@ -43,7 +43,7 @@ def reason_of(error: JSONDecodeError) -> str:
     """Say where the text broke, and why."""
     # The parser's remarks end in "at", for it goes on to name the place.
     reason = (error.msg[0].lower() + error.msg[1:]).removesuffix(" at").removesuffix(" starting")
-    return f"in line {error.lineno}, column {error.colno}: {reason}"
+    return f"line {error.lineno}, column {error.colno}: {reason}"
 
 
 class Hooks:

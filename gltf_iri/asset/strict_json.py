@@ -50,7 +50,7 @@ def _broken(error: json.JSONDecodeError, start: int) -> AssetError:
     if not error.doc.strip():
         return AssetError("there is no JSON, only blank space or nothing", offset=start)
     offset = start + len(error.doc[: error.pos].encode())
-    return AssetError(f"the JSON is broken {reason_of(error)}", offset=offset)
+    return AssetError(f"the JSON is broken in {reason_of(error)}", offset=offset)
 
 
 def _decoded(data: bytes) -> str:

@@ -15,7 +15,7 @@ CODES_OF_OBJECTS: dict[str, tuple[int, str]] = {
     "DUPLICATE_ELEMENTS": (ERROR, "The item stands in the array before."),
     "EMPTY_ENTITY": (ERROR, "It is empty; leave it out."),
     "INVALID_INDEX": (ERROR, "An index is an integer from 0 on."),
-    "INVALID_JSON": (ERROR, "The JSON is broken {reason}."),
+    "INVALID_JSON": (ERROR, "The JSON is broken: {reason}."),
     "INVALID_URI": (ERROR, "The URI {uri} is broken: {reason}."),
     "ONE_OF_MISMATCH": (ERROR, "Exactly one of {properties} must be there."),
     "PATTERN_MISMATCH": (ERROR, "The text {value} does not have the form {pattern}."),
@@ -116,7 +116,7 @@ CODES_OF_OBJECTS: dict[str, tuple[int, str]] = {
     ),
     "MESH_PRIMITIVE_INDEXED_SEMANTIC_CONTINUITY": (
         ERROR,
-        "The sets of {semantic} must count from 0 without a gap; {given} of {wanted} are there.",
+        "The sets of {semantic} must count from 0 without a gap.",
     ),
     "MESH_PRIMITIVE_INVALID_ATTRIBUTE": (
         ERROR,

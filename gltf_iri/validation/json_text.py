@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from gltf_iri.asset.json_parts import BYTE_ORDER_MARK, ESCAPED_SURROGATE, Hooks, reason_of, too_deep_at
 from gltf_iri.asset.limits import MAX_JSON_BYTES, MAX_JSON_DEPTH, MAX_JSON_VALUES
+from gltf_iri.asset.words import shown
 from gltf_iri.validation import reading_codes as _codes  # noqa: F401  # makes them known
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import join
@@ -42,14 +43,14 @@ def read_json(data: bytes, tell: Callable[[Issue], None]) -> dict[str, Any] | No
     doubles are infinite, and of a key that stands twice the last value holds.
     """
     if data.startswith(BYTE_ORDER_MARK):
-        tell(issue("INVALID_JSON", "", reason="with a byte order mark before it"))
+        tell(issue("INVALID_JSON", "", reason="it starts with a byte order mark"))
         data = data[len(BYTE_ORDER_MARK) :]
     if _is_beyond_limits(data, tell):
         return None
     try:
         text = data.decode()
     except UnicodeDecodeError as error:
-        tell(issue("INVALID_JSON", "", reason=f"at byte {error.start}, which is not UTF-8: {error.reason}"))
+        tell(issue("INVALID_JSON", "", reason=f"byte {error.start} is not UTF-8 ({error.reason})"))
         return None
     hooks = Hooks()
     has_long_integers = _LONG_INTEGER in data.translate(_DIGITS_AS_ZEROS)
@@ -61,7 +62,7 @@ def read_json(data: bytes, tell: Callable[[Issue], None]) -> dict[str, Any] | No
             parse_constant=_refuse_constant,
         )
     except json.JSONDecodeError as error:
-        reason = reason_of(error) if text.strip() else "for there is nothing in it"
+        reason = reason_of(error) if text.strip() else "there is nothing in it"
         tell(issue("INVALID_JSON", "", reason=reason))
         return None
     except ValueError as error:
@@ -71,7 +72,7 @@ def read_json(data: bytes, tell: Callable[[Issue], None]) -> dict[str, Any] | No
         tell(_too_deep(too_deep_at(data) or 0))
         return None
     if not isinstance(tree, dict):
-        tell(issue("TYPE_MISMATCH", "", value=_shown(tree), wanted="an object"))
+        tell(issue("TYPE_MISMATCH", "", value=shown(tree), wanted="an object"))
         return None
     if hooks.is_suspicious or ESCAPED_SURROGATE.search(text):
         for remark, _ in zip(_oddities(tree, hooks), range(_MOST_TOLD), strict=False):
@@ -79,14 +80,8 @@ def read_json(data: bytes, tell: Callable[[Issue], None]) -> dict[str, Any] | No
     return tree
 
 
-def _shown(value: Any) -> str:
-    from gltf_iri.asset.words import shown
-
-    return shown(value)
-
-
 def _refuse_constant(word: str) -> Any:
-    raise ValueError(f"with {word}, which JSON does not know")
+    raise ValueError(f"it holds {word}, which JSON does not know")
 
 
 def _is_beyond_limits(data: bytes, tell: Callable[[Issue], None]) -> bool:
