@@ -1,4 +1,4 @@
-"""JSON as glTF allows it (glTF 2.0 §2.7.1, RFC 8259): one meaning for every reader, or an error.
+"""JSON as glTF allows it (glTF 2.0 §2.7, RFC 8259): one meaning for every reader, or an error.
 
 UTF-8 without byte order mark, no NaN or infinity, no number that overflows, no repeated key, no half of a
 surrogate pair, bounded size and depth. Size and depth are checked on the bytes, before the parser allocates

@@ -12,7 +12,7 @@ from gltf_iri.validation.issue import ERROR, WARNING
 __all__ = ["READING_CODES"]
 
 READING_CODES: dict[str, tuple[int, str]] = {
-    # glTF 2.0 §2.7.1: names within an object MUST be unique. Readers take the first, the last, or neither.
+    # glTF 2.0 §2.7: names within an object MUST be unique. Readers take the first, the last, or neither.
     "IRI_DUPLICATE_KEY": (ERROR, "The key stands twice in its object; most readers take the last."),
     # The grammar of JSON allows it, but no UTF-8 can hold it (RFC 8259 §8.2): some readers refuse the file.
     "IRI_LONE_SURROGATE": (
