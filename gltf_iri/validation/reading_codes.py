@@ -1,7 +1,6 @@
 """Our own codes of reading a file and running its rules.
 
-An error is what the specification forbids with a MUST, and what leaves the file unread: a file that nobody
-looked at must not pass. The rest warns.
+An error is what leaves the file unread, for what nobody looked at must not pass. The rest warns.
 """
 
 from __future__ import annotations
@@ -12,9 +11,9 @@ from gltf_iri.validation.issue import ERROR, WARNING
 __all__ = ["READING_CODES"]
 
 READING_CODES: dict[str, tuple[int, str]] = {
-    # glTF 2.0 §2.7: names within an object MUST be unique. Readers take the first, the last, or neither.
-    "IRI_DUPLICATE_KEY": (ERROR, "The key stands twice in its object; most readers take the last."),
-    # The grammar of JSON allows it, but no UTF-8 can hold it (RFC 8259 §8.2): some readers refuse the file.
+    # glTF 2.0 §2.7: keys SHOULD be unique, and readers SHOULD take the last. Some refuse the file, ours too.
+    "IRI_DUPLICATE_KEY": (WARNING, "The key stands twice in its object; the last value holds."),
+    # The grammar of JSON allows it, but no UTF-8 can hold it (RFC 8259 §8.2): some readers refuse it.
     "IRI_LONE_SURROGATE": (
         WARNING,
         "The text holds half of a surrogate pair, which is no character; some readers refuse such a file.",
