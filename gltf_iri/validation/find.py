@@ -103,10 +103,11 @@ class _Search:
                 place = os.path.join(true, entry.name)  # noqa: PTH118  # ten thousand Paths take a second
                 if entry.is_dir(follow_symlinks=False):
                     folders.append((entry.path, place))
-                elif entry.name.lower().endswith(_ENDINGS) and not entry.is_dir():
-                    if entry.is_file():
+                elif entry.name.lower().endswith(_ENDINGS):
+                    mode = _mode(entry)
+                    if stat.S_ISREG(mode):
                         self._keep(entry.path, os.path.realpath(place) if entry.is_symlink() else place)
-                    else:
+                    elif not stat.S_ISDIR(mode):
                         self._pass_over(entry.path)
             waiting.extend(reversed(folders))
 
@@ -117,6 +118,13 @@ class _Search:
 
     def _pass_over(self, path: str) -> None:
         self.found.passed_over.append(f"{path}: it is no regular file, or a link to nothing")
+
+
+def _mode(entry: os.DirEntry[str]) -> int:
+    try:
+        return entry.stat().st_mode
+    except OSError:  # a link to nothing, or to itself
+        return 0
 
 
 def _matches(pattern: str) -> list[Path]:
