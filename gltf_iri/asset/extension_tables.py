@@ -22,11 +22,13 @@ class Extension:
     objects : name of the object that carries it to the table of what it carries.
     is_required : it means nothing to a reader that does not know it, so it must stand in extensionsRequired.
     stands_alone : it replaces the shading that other extensions of the same object would change.
+    widens : values that it allows beside those of the core, as (table, property, value).
     """
 
     objects: Mapping[str, str]
     is_required: bool = False
     stands_alone: bool = False
+    widens: tuple[tuple[str, str, str], ...] = ()
 
 
 def _factor(key: str) -> Row:
@@ -88,8 +90,13 @@ EXTENSION_OBJECTS: Final[Mapping[str, tuple[Row, ...]]] = {
 }
 
 EXTENSIONS: Final[Mapping[str, Extension]] = {
-    "EXT_texture_webp": Extension({"texture": "EXT_texture_webp"}),
-    "KHR_animation_pointer": Extension({"animation.channel.target": "KHR_animation_pointer"}),
+    "EXT_texture_webp": Extension(
+        {"texture": "EXT_texture_webp"}, widens=(("image", "mimeType", "image/webp"),)
+    ),
+    "KHR_animation_pointer": Extension(
+        {"animation.channel.target": "KHR_animation_pointer"},
+        widens=(("animation.channel.target", "path", "pointer"),),
+    ),
     "KHR_lights_punctual": Extension({"glTF": "KHR_lights_punctual", "node": "KHR_lights_punctual.node"}),
     "KHR_materials_pbrSpecularGlossiness": Extension(
         {"material": "KHR_materials_pbrSpecularGlossiness"}, stands_alone=True

@@ -61,6 +61,7 @@ class Row:
     also_allowed: float | None = None  # one legal number outside [low, high]
     pattern: str = ""  # the whole of a TEXT matches this regular expression
     colour_space: str = ""  # of a texture: "srgb" where its colours are stored so
+    counts_as_use: bool = True  # of an index: what it refers to is used by it
 
 
 def _text(
@@ -105,6 +106,7 @@ def _objects(key: str, table: str, *, required: bool = False) -> Row:
 
 
 _NAME = _text("name")
+_VERSION = r"[0-9]+\.[0-9]+"
 _WRAP = (33071, 33648, 10497)  # clamp to edge, mirrored repeat, repeat
 _BYTE_OFFSET = _integer("byteOffset", 0, default=0)
 _EXTENSION_NAMES = Row("extensionsUsed", Kind.TEXT, Shape.ARRAY, is_unique=True)
@@ -129,7 +131,12 @@ OBJECTS: Final[Mapping[str, tuple[Row, ...]]] = {
         _objects("skins", "skin"),
         _objects("textures", "texture"),
     ),
-    "asset": (_text("copyright"), _text("generator"), _text("version", required=True), _text("minVersion")),
+    "asset": (
+        _text("copyright"),
+        _text("generator"),
+        Row("version", Kind.TEXT, required=True, pattern=_VERSION),
+        Row("minVersion", Kind.TEXT, pattern=_VERSION),
+    ),
     "accessor": (
         _NAME,
         _index("bufferView", "bufferViews"),
@@ -239,7 +246,7 @@ OBJECTS: Final[Mapping[str, tuple[Row, ...]]] = {
     "skin": (
         _NAME,
         _index("inverseBindMatrices", "accessors"),
-        _index("skeleton", "nodes"),
+        replace(_index("skeleton", "nodes"), counts_as_use=False),
         _indices("joints", "nodes", required=True),
     ),
     "texture": (_NAME, _index("sampler", "samplers"), _index("source", "images")),

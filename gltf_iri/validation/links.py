@@ -1,13 +1,17 @@
-"""The links: every index refers to something, and what nothing refers to is told at the end."""
+"""The links: every index refers to something, which thereby is used."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
-from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.entry import Entry
-from gltf_iri.validation.tables import Field
+
+if TYPE_CHECKING:
+    from typing import Any
+
+    from gltf_iri.validation.asset import Asset
+    from gltf_iri.validation.entry import Entry
+    from gltf_iri.validation.tables import Field
 
 __all__ = ["check_links"]
 
@@ -15,43 +19,47 @@ __all__ = ["check_links"]
 def check_links(asset: Asset) -> None:
     """Tell of indices that refer to nothing and take them out of their entries; mark what is referred to."""
     for entry, field in asset.references:
-        targets = _targets(asset, entry, field)
-        value = entry[field.key]
+        link = _Link(asset, entry, field)
+        key = field.key
+        value = entry[key]
         if isinstance(value, int):
-            if not _is_resolved(asset, entry, targets, value, field.key):
-                del entry[field.key]
+            if not link.is_resolved(value, key):
+                del entry[key]
         elif isinstance(value, dict):
-            _check_map(asset, entry, targets, value, field.key)
+            link.resolve_map(value, key)
         else:
             for position, item in enumerate(value):
                 if isinstance(item, dict):
-                    _check_map(asset, entry, targets, item, field.key, position)
-                elif item is not None and not _is_resolved(asset, entry, targets, item, field.key, position):
+                    link.resolve_map(item, key, position)
+                elif item is not None and not link.is_resolved(item, key, position):
                     value[position] = None
 
 
-def _targets(asset: Asset, entry: Entry, field: Field) -> list[Entry | None]:
-    if field.refers_to == "animation.samplers":
-        animation = entry.parent
-        found: list[Entry | None] = animation.get("samplers", []) if animation is not None else []
-        return found
-    return asset.array(field.refers_to)
+class _Link:
+    """What the indices of one property refer to."""
 
+    __slots__ = ("_asset", "_counts_as_use", "_entry", "_targets")
 
-def _check_map(
-    asset: Asset, entry: Entry, targets: list[Entry | None], indices: dict[str, Any], *keys: str | int
-) -> None:
-    for name, index in list(indices.items()):
-        if not _is_resolved(asset, entry, targets, index, *keys, name):
-            del indices[name]
+    def __init__(self, asset: Asset, entry: Entry, field: Field) -> None:
+        self._asset = asset
+        self._entry = entry
+        self._counts_as_use = field.counts_as_use
+        self._targets: list[Entry | None]
+        if field.refers_to == "animation.samplers":
+            self._targets = entry.parent.get("samplers", []) if entry.parent is not None else []
+        else:
+            self._targets = asset.array(field.refers_to)
 
+    def is_resolved(self, index: int, *keys: str | int) -> bool:
+        target = self._targets[index] if index < len(self._targets) else None
+        if target is None:
+            self._asset.collector.add(issue("UNRESOLVED_REFERENCE", self._entry.at(*keys), index=index))
+            return False
+        if self._counts_as_use:
+            target.is_used = True
+        return True
 
-def _is_resolved(
-    asset: Asset, entry: Entry, targets: list[Entry | None], index: int, *keys: str | int
-) -> bool:
-    target = targets[index] if index < len(targets) else None
-    if target is None:
-        asset.collector.add(issue("UNRESOLVED_REFERENCE", entry.at(*keys), index=index))
-        return False
-    target.is_used = True
-    return True
+    def resolve_map(self, indices: dict[str, Any], *keys: str | int) -> None:
+        for name, index in list(indices.items()):
+            if not self.is_resolved(index, *keys, name):
+                del indices[name]

@@ -65,6 +65,7 @@ def tables_json() -> str:
                 "objects": dict(extension.objects),
                 "isRequired": extension.is_required,
                 "standsAlone": extension.stands_alone,
+                "widens": extension.widens,
             }
             for name, extension in sorted(extensions.items())
         },
@@ -81,7 +82,7 @@ def _add(objects: dict[str, tuple[Row, ...]], extensions: dict[str, Extension], 
         if row.kind is fields.Kind.EXTENSION and row.cls is not None:
             known = extensions.get(row.key, Extension({}))
             places = {**known.objects, name: row.key}
-            extensions[row.key] = Extension(places, known.is_required, known.stands_alone)
+            extensions[row.key] = replace(known, objects=places)
             if row.key not in objects:
                 _add(objects, extensions, row.key, row.cls)
         else:
@@ -136,6 +137,7 @@ def _told(row: Row) -> Iterator[tuple[str, Any]]:
     plain = Row(row.key, row.kind, row.shape)
     names = ("required", "low", "high", "low_is_excluded", "also_allowed", "multiple_of", "choices")
     names += ("refers_to", "table", "min_items", "max_items", "is_unique", "needs", "pattern", "colour_space")
+    names += ("counts_as_use",)
     for name in names:
         value = getattr(row, name)
         is_said_by_link = name == "needs" and value == row.refers_to

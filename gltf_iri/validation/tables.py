@@ -13,14 +13,34 @@ from typing import Any
 
 from gltf_iri.validation.entry import Entry
 
-__all__ = ["EXTENSIONS", "TABLES", "Extension", "Field", "Table", "add_tables", "value_of"]
+__all__ = [
+    "EXTENSIONS",
+    "TABLES",
+    "TARGETS",
+    "Extension",
+    "Field",
+    "Table",
+    "add_tables",
+    "sound_value_of",
+    "value_of",
+]
 
 
 class Field:
     """One property: the row of `gltf_iri.asset.tables.Row` with the same names, ready to be read."""
 
     __slots__ = (
-        *("also_allowed", "choices", "colour_space", "default", "has_range", "high", "is_unique", "key"),
+        *(
+            "also_allowed",
+            "choices",
+            "colour_space",
+            "counts_as_use",
+            "default",
+            "has_range",
+            "high",
+            "is_unique",
+            "key",
+        ),
         *("kind", "low", "low_is_excluded", "max_items", "min_items", "multiple_of", "needs", "pattern"),
         *("refers_to", "required", "shape", "table"),
     )
@@ -47,6 +67,7 @@ class Field:
         needs: str = "",
         pattern: str = "",
         colour_space: str = "",
+        counts_as_use: bool = True,
     ) -> None:
         self.key = key
         self.kind = kind
@@ -67,44 +88,53 @@ class Field:
         self.needs = needs
         self.pattern = re.compile(pattern) if pattern else None
         self.colour_space = colour_space
+        self.counts_as_use = counts_as_use
         self.has_range = low is not None or high is not None
 
 
 class Table:
-    """One kind of object: its fields by key, and which must or must not stand together."""
+    """One kind of object: its fields by key, and which must or must not stand together.
 
-    __slots__ = ("exclusive", "fields", "is_named_by_type", "name", "needing", "one_of", "required")
+    parts : those properties of which the object has the one that its "type" names.
+    """
+
+    __slots__ = ("fields", "name", "needing", "one_of", "parts", "required")
 
     def __init__(
         self,
         name: str,
         fields: list[Field],
         *,
-        exclusive: tuple[tuple[str, tuple[str, ...]], ...] = (),
         one_of: tuple[str, ...] = (),
-        is_named_by_type: bool = False,
+        parts: frozenset[str] = frozenset(),
     ) -> None:
         self.name = name
         self.fields = {field.key: field for field in fields}
         self.required = tuple(field.key for field in fields if field.required)
         self.needing = tuple((field.key, field.needs) for field in fields if field.needs)
-        self.exclusive = exclusive
         self.one_of = one_of
-        self.is_named_by_type = is_named_by_type
+        self.parts = parts
 
 
 class Extension:
     """Where an extension's objects stand: name of the carrier's table to the table of what it carries."""
 
-    __slots__ = ("is_required", "name", "objects", "stands_alone")
+    __slots__ = ("is_required", "name", "objects", "stands_alone", "widens")
 
     def __init__(
-        self, name: str, objects: dict[str, str], *, is_required: bool = False, stands_alone: bool = False
+        self,
+        name: str,
+        objects: dict[str, str],
+        *,
+        is_required: bool = False,
+        stands_alone: bool = False,
+        widens: tuple[tuple[str, str, str], ...] = (),
     ) -> None:
         self.name = name
         self.objects = objects
         self.is_required = is_required
         self.stands_alone = stands_alone
+        self.widens = widens
 
 
 def add_tables(stated: dict[str, Any]) -> None:
@@ -115,19 +145,21 @@ def add_tables(stated: dict[str, Any]) -> None:
     exclusive, one_of = stated.get("exclusive", {}), stated.get("oneOf", {})
     by_type = stated.get("namedByType", ())
     for name, rows in stated["objects"].items():
+        parts = {part for key, others in exclusive.get(name, ()) for part in (key, *others)}
         TABLES[name] = Table(
             name,
             [Field(**row) for row in rows],
-            exclusive=tuple((key, tuple(others)) for key, others in exclusive.get(name, ())),
             one_of=tuple(one_of.get(name, ())),
-            is_named_by_type=name in by_type,
+            parts=frozenset(parts if name in by_type else ()),
         )
+        TARGETS.update(row["refers_to"] for row in rows if "refers_to" in row)
     for name, extension in stated["extensions"].items():
         EXTENSIONS[name] = Extension(
             name,
             extension["objects"],
             is_required=extension.get("isRequired", False),
             stands_alone=extension.get("standsAlone", False),
+            widens=tuple(map(tuple, extension.get("widens", ()))),
         )
 
 
@@ -136,6 +168,13 @@ def value_of(entry: Entry, key: str) -> Any:
     return entry[key] if key in entry else TABLES[entry.table].fields[key].default
 
 
+def sound_value_of(entry: Entry, key: str) -> Any:
+    """Return the same, but None where the file states a value that was told of as broken."""
+    return None if key in entry.raw and key not in entry else value_of(entry, key)
+
+
 TABLES: dict[str, Table] = {}
 EXTENSIONS: dict[str, Extension] = {}
+# The arrays that indices refer to.
+TARGETS: set[str] = set()
 add_tables(json.loads(Path(__file__).with_name("tables.json").read_text(encoding="utf-8")))

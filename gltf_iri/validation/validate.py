@@ -18,6 +18,7 @@ from gltf_iri.validation.report import Report
 from gltf_iri.validation.resources import check_resources
 from gltf_iri.validation.rules import every as _every  # noqa: F401  # registers the rules
 from gltf_iri.validation.rules.registry import DATA_RULES, RULES
+from gltf_iri.validation.usage import check_usage
 from gltf_iri.validation.walk import Walk
 
 if TYPE_CHECKING:
@@ -85,6 +86,7 @@ def _judge(
     )
     _run(check_links, asset)
     _follow(RULES, asset)
+    _run(check_usage, asset)
     if not walk.is_known_version:
         return None
     _run(check_resources, asset)

@@ -5,45 +5,64 @@ What is told here is said of one property alone; the rules see entries that hold
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from gltf_iri.asset.words import shown
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.collector import Collector
 from gltf_iri.validation.entry import Entry, join
 from gltf_iri.validation.tables import EXTENSIONS, TABLES, Field
+from gltf_iri.validation.values import BROKEN, WANTED, complaint, typed
+from gltf_iri.validation.version import KNOWN, version_key
 
-__all__ = ["Reference", "Walk"]
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
-_WANTED = {
-    "INTEGER": "an integer",
-    "INDEX": "an index",
-    "NUMBER": "a number",
-    "FLAG": "true or false",
-    "TEXT": "text",
-    "OBJECT": "an object",
-}
+    from gltf_iri.validation.collector import Collector
 
-# An entry and the field that holds one index or several.
-Reference = tuple[Entry, Field]
+    # An entry and the field that holds one index or several.
+    Reference = tuple[Entry, Field]
 
-# Stands for a value that was told of already.
-_BROKEN: Any = object()
+__all__ = ["Walk"]
+
+# What tells how the file is to be read, whatever its version.
+_READ_FIRST = ("asset", "extensionsUsed", "extensionsRequired")
 
 
 class Walk:
-    """One walk over one file; `declared` are the names in its extensionsUsed.
+    """One walk over one file.
 
-    `entries` are all objects, each after those that it holds; `references` all indices into arrays.
+    entries : all objects, each after those that it holds.
+    references : all indices into arrays.
+    declared : the names in extensionsUsed.
+    is_known_version : the file says that it is of the version whose tables these are.
     """
 
-    def __init__(self, collector: Collector, declared: frozenset[str]) -> None:
+    def __init__(self, collector: Collector) -> None:
         self._tell = collector.add
-        self._declared = declared
+        # Table and key to the values that declared extensions allow beside those of the core.
+        self._wider: dict[tuple[str, str], list[str]] = {}
+        self.declared: frozenset[str] = frozenset()
         self.entries: list[Entry] = []
         self.references: list[Reference] = []
+        self.is_known_version = False
+
+    def root(self, raw: dict[str, Any]) -> Entry:
+        """Return the entry of a whole file; of an unknown version only what says what the file is."""
+        used = raw.get("extensionsUsed")
+        if isinstance(used, list) and all(isinstance(name, str) for name in used):
+            self.declared = frozenset(used)
+        for name in self.declared & EXTENSIONS.keys():
+            for table, key, choice in EXTENSIONS[name].widens:
+                self._wider.setdefault((table, key), []).append(choice)
+        asset = raw.get("asset")
+        version = asset.get("version") if isinstance(asset, dict) else None
+        pattern = TABLES["asset"].fields["version"].pattern
+        if isinstance(version, str) and pattern is not None and pattern.fullmatch(version):
+            self.is_known_version = version_key(version)[0] == version_key(KNOWN)[0]
+        if self.is_known_version:
+            return self.object("glTF", raw)
+        known = TABLES["glTF"].fields.keys() | {"extensions", "extras"}
+        return self.object("glTF", {key: raw[key] for key in raw if key in _READ_FIRST or key not in known})
 
     def object(
         self, table_name: str, raw: dict[str, Any], pointer: str = "", parent: Entry | None = None
@@ -52,18 +71,17 @@ class Walk:
         table = TABLES[table_name]
         fields = table.fields
         entry = Entry(table_name, pointer, raw, parent)
+        # Of the parts that a "type" chooses from, the others are not looked at.
+        unread = [part for part in table.parts if part != raw["type"]] if "type" in raw else ()
         for key, value in raw.items():
             field = fields.get(key)
             if field is not None:
-                checked = _READERS[field.shape](self, field, value, join(pointer, key), entry)
-                if checked is not _BROKEN:
-                    entry[key] = checked
-                    if field.kind == "INDEX":
-                        self.references.append((entry, field))
+                if key not in unread:
+                    self._property(entry, field, value)
             elif key == "extensions":
                 self._extensions(entry, value)
             elif key == "extras":
-                if not isinstance(value, dict):
+                if value is not None and not isinstance(value, dict):
                     self._tell(issue("NON_OBJECT_EXTRAS", join(pointer, key)))
             else:
                 self._tell(issue("UNEXPECTED_PROPERTY", join(pointer, key)))
@@ -71,27 +89,34 @@ class Walk:
         self.entries.append(entry)
         return entry
 
+    def _property(self, entry: Entry, field: Field, value: Any) -> None:
+        checked = _READERS[field.shape](self, field, value, entry)
+        if checked is not BROKEN:
+            entry[field.key] = checked
+            if field.kind == "INDEX":
+                self.references.append((entry, field))
+
     def _company(self, entry: Entry) -> None:
         """Tell of properties that are missing, and of those that must not stand together."""
         table, raw = TABLES[entry.table], entry.raw
         for key in table.required:
-            if key not in raw:
+            if raw.get(key) is None:
                 self._tell(issue("UNDEFINED_PROPERTY", entry.pointer or "/", property=key))
         for key, needs in table.needing:
-            if key in raw and needs not in raw:
+            if key in entry and needs not in entry:
                 self._tell(issue("UNSATISFIED_DEPENDENCY", entry.at(key), property=needs))
         if table.one_of and sum(key in entry for key in table.one_of) != 1:
             self._tell(issue("ONE_OF_MISMATCH", entry.pointer, properties=" and ".join(table.one_of)))
-        if table.is_named_by_type:
-            self._named_by_type(entry)
+        if table.parts:
+            self._parts(entry, sorted(table.parts & raw.keys()))
 
-    def _named_by_type(self, entry: Entry) -> None:
+    def _parts(self, entry: Entry, given: list[str]) -> None:
         """Tell of an object whose "type" names a part that is missing, or that has two parts."""
-        parts = {part for key, others in TABLES[entry.table].exclusive for part in (key, *others)}
-        if len(parts & entry.raw.keys()) > 1:
-            self._tell(issue("ONE_OF_MISMATCH", entry.pointer, properties=" and ".join(sorted(parts))))
-        elif entry.get("type") in parts and entry["type"] not in entry.raw:
-            self._tell(issue("UNDEFINED_PROPERTY", entry.pointer, property=entry["type"]))
+        named = entry.get("type")
+        if len(given) > 1:
+            self._tell(issue("ONE_OF_MISMATCH", entry.pointer, properties=" and ".join(given)))
+        elif named is not None and entry.raw.get(named) is None:
+            self._tell(issue("UNDEFINED_PROPERTY", entry.pointer, property=named))
 
     def _extensions(self, entry: Entry, value: Any) -> None:
         pointer = entry.at("extensions")
@@ -102,7 +127,7 @@ class Walk:
             place = join(pointer, name)
             if not isinstance(raw, dict):
                 self._mismatch(raw, "an object", place)
-            if name not in self._declared:
+            if name not in self.declared:
                 self._tell(issue("UNDECLARED_EXTENSION", place))
             elif name in EXTENSIONS and isinstance(raw, dict):
                 table = EXTENSIONS[name].objects.get(entry.table)
@@ -115,135 +140,139 @@ class Walk:
                 if EXTENSIONS[name].stands_alone:
                     self._tell(issue("MULTIPLE_EXTENSIONS", join(pointer, name)))
 
-    def _one(self, field: Field, value: Any, pointer: str, holder: Entry) -> Any:
+    def _one(self, field: Field, value: Any, entry: Entry) -> Any:
+        key = field.key
         if field.kind == "OBJECT":
             if isinstance(value, dict):
-                return self.object(field.table, value, pointer, holder)
-            return self._mismatch(value, "an object", pointer)
-        typed = _typed(field.kind, value)
-        if typed is _BROKEN:
-            return self._mismatch(value, _WANTED[field.kind], pointer)
-        return self._checked(field, typed, pointer)
+                return self.object(field.table, value, entry.at(key), entry)
+            return self._mismatch(value, "an object", entry.at(key))
+        found = typed(field.kind, value)
+        if found is BROKEN:
+            return self._mismatch(value, WANTED[field.kind], entry.at(key))
+        wrong = complaint(field, found)
+        if wrong is not None and found not in self._wider.get((entry.table, key), ()):
+            return self._wrong(wrong, entry.at(key))
+        if field.multiple_of and found % field.multiple_of:
+            self._tell(issue("VALUE_MULTIPLE_OF", entry.at(key), value=found, factor=field.multiple_of))
+        return found
 
-    def _array(self, field: Field, value: Any, pointer: str, holder: Entry) -> Any:
+    def _array(self, field: Field, value: Any, entry: Entry) -> Any:
+        pointer = entry.at(field.key)
         if not isinstance(value, list):
             return self._mismatch(value, "an array", pointer)
         if not value:
-            self._tell(issue("EMPTY_ENTITY", pointer))
-            return _BROKEN
+            return self._wrong(("EMPTY_ENTITY", {}), pointer)
         if field.max_items is not None and not field.min_items <= len(value) <= field.max_items:
-            allowed = (
-                f"{field.min_items}" if field.min_items == field.max_items else f"up to {field.max_items}"
+            is_fixed = field.min_items == field.max_items
+            allowed = f"{field.min_items}" if is_fixed else f"up to {field.max_items}"
+            return self._wrong(
+                ("ARRAY_LENGTH_NOT_IN_LIST", {"length": len(value), "allowed": allowed}), pointer
             )
-            self._tell(issue("ARRAY_LENGTH_NOT_IN_LIST", pointer, length=len(value), allowed=allowed))
-            return _BROKEN
-        items = _ITEMS[field.kind](self, field, value, pointer, holder)
-        if field.is_unique and isinstance(items, list):
-            self._repeated(items, pointer)
-        return items
+        return _ITEMS[field.kind](self, field, value, pointer, entry)
+
+    def _objects(self, field: Field, values: list[Any], pointer: str, entry: Entry) -> Any:
+        objects: list[Entry | None] = []
+        if entry.parent is None:
+            # The file's own arrays live on without their broken items: indices of the others stay right.
+            for position, value in enumerate(values):
+                place = f"{pointer}/{position}"
+                if isinstance(value, dict):
+                    objects.append(self.object(field.table, value, place, entry))
+                else:
+                    self._mismatch(value, "an object", place)
+                    objects.append(None)
+            return objects
+        if self._has_others(values, pointer):
+            return BROKEN
+        for position, value in enumerate(values):
+            objects.append(self.object(field.table, value, f"{pointer}/{position}", entry))
+        return objects
+
+    def _has_others(self, values: list[Any], pointer: str) -> bool:
+        """Tell whether the list holds anything but objects."""
+        others = [value for value in values if not isinstance(value, dict)]
+        for value in others:
+            self._tell(issue("ARRAY_TYPE_MISMATCH", pointer, value=shown(value), wanted="an object"))
+        return bool(others)
+
+    def _indices(self, field: Field, values: list[Any], pointer: str, entry: Entry) -> Any:
+        indices = [self._index(value, pointer, position) for position, value in enumerate(values)]
+        if field.is_unique:
+            self._repeated(indices, pointer)
+        return indices
+
+    def _index(self, value: Any, pointer: str, key: str | int) -> int | None:
+        index = typed("INDEX", value)
+        if index is BROKEN or index < 0:
+            self._tell(issue("INVALID_INDEX", join(pointer, key)))
+            return None
+        return int(index)
+
+    def _numbers(self, field: Field, values: list[Any], pointer: str, entry: Entry) -> Any:
+        numbers = [self._item(field, value, pointer) for value in values]
+        if BROKEN in numbers:
+            return BROKEN
+        for position, number in enumerate(numbers):
+            wrong = complaint(field, number)
+            if wrong is not None:
+                numbers[position] = self._wrong(wrong, f"{pointer}/{position}")
+        return BROKEN if BROKEN in numbers else numbers
+
+    def _texts(self, field: Field, values: list[Any], pointer: str, entry: Entry) -> Any:
+        texts = [self._item(field, v, f"{pointer}/{position}") for position, v in enumerate(values)]
+        if field.is_unique:
+            self._repeated(texts, pointer)
+        return BROKEN if BROKEN in texts else texts
+
+    def _item(self, field: Field, value: Any, pointer: str) -> Any:
+        found = typed(field.kind, value)
+        if found is BROKEN:
+            self._tell(issue("ARRAY_TYPE_MISMATCH", pointer, value=shown(value), wanted=WANTED[field.kind]))
+        return found
 
     def _repeated(self, items: list[Any], pointer: str) -> None:
         seen = set()
         for position, item in enumerate(items):
-            if item is not None and item in seen:
-                self._tell(issue("DUPLICATE_ELEMENTS", join(pointer, position)))
+            if item in seen and item is not None and item is not BROKEN:
+                self._tell(issue("DUPLICATE_ELEMENTS", f"{pointer}/{position}"))
             seen.add(item)
 
-    def _objects(self, field: Field, values: list[Any], pointer: str, holder: Entry) -> Any:
-        entries: list[Entry | None] = []
-        for position, value in enumerate(values):
-            place = join(pointer, position)
-            if isinstance(value, dict):
-                entries.append(self.object(field.table, value, place, holder))
-            else:
-                self._mismatch(value, "an object", place)
-                entries.append(None)
-        return entries
-
-    def _indices(self, field: Field, values: list[Any], pointer: str, holder: Entry) -> Any:
-        indices: list[int | None] = []
-        for position, value in enumerate(values):
-            index = _typed("INDEX", value)
-            if index is _BROKEN or index < 0:
-                self._tell(issue("INVALID_INDEX", join(pointer, position)))
-                index = None
-            indices.append(index)
-        return indices
-
-    def _numbers(self, field: Field, values: list[Any], pointer: str, holder: Entry) -> Any:
-        numbers = [self._item(field, value, pointer, pointer) for value in values]
-        if _BROKEN in numbers:
-            return _BROKEN
-        for position, number in enumerate(numbers):
-            if self._checked(field, number, join(pointer, position)) is _BROKEN:
-                numbers[position] = _BROKEN
-        return _BROKEN if _BROKEN in numbers else numbers
-
-    def _texts(self, field: Field, values: list[Any], pointer: str, holder: Entry) -> Any:
-        items = [self._item(field, v, pointer, join(pointer, i)) for i, v in enumerate(values)]
-        return [None if item is _BROKEN else item for item in items]
-
-    def _item(self, field: Field, value: Any, pointer: str, place: str) -> Any:
-        typed = _typed(field.kind, value)
-        if typed is _BROKEN:
-            self._tell(issue("ARRAY_TYPE_MISMATCH", place, value=shown(value), wanted=_WANTED[field.kind]))
-        return typed
-
-    def _map(self, field: Field, value: Any, pointer: str, holder: Entry) -> Any:
+    def _map(self, field: Field, value: Any, entry: Entry) -> Any:
+        pointer = entry.at(field.key)
         if not isinstance(value, dict):
             return self._mismatch(value, "an object", pointer)
-        if not value:
-            self._tell(issue("EMPTY_ENTITY", pointer))
-            return _BROKEN
-        checked = {key: self._one(field, item, join(pointer, key), holder) for key, item in value.items()}
-        return {key: item for key, item in checked.items() if item is not _BROKEN}
+        return self._index_map(value, pointer)
 
-    def _maps(self, field: Field, value: Any, pointer: str, holder: Entry) -> Any:
+    def _maps(self, field: Field, value: Any, entry: Entry) -> Any:
+        pointer = entry.at(field.key)
         if not isinstance(value, list):
             return self._mismatch(value, "an array", pointer)
         if not value:
-            self._tell(issue("EMPTY_ENTITY", pointer))
-            return _BROKEN
-        maps: list[dict[str, int] | None] = []
-        for position, item in enumerate(value):
-            if isinstance(item, dict):
-                checked = self._map(field, item, join(pointer, position), holder)
-                maps.append(None if checked is _BROKEN else checked)
-            else:
-                self._tell(issue("ARRAY_TYPE_MISMATCH", pointer, value=shown(item), wanted="an object"))
-                maps.append(None)
-        return maps
+            return self._wrong(("EMPTY_ENTITY", {}), pointer)
+        has_others = self._has_others(value, pointer)
+        maps = [
+            self._index_map(item, f"{pointer}/{position}")
+            for position, item in enumerate(value)
+            if isinstance(item, dict)
+        ]
+        return BROKEN if has_others or BROKEN in maps else maps
 
-    def _checked(self, field: Field, value: Any, pointer: str) -> Any:
-        """Return a value of the right type, or _BROKEN where it is not one that the field may have."""
-        if field.kind == "INDEX":
-            if value < 0:
-                self._tell(issue("INVALID_INDEX", pointer))
-                return _BROKEN
-        elif field.choices:
-            if value not in field.choices:
-                listed = ", ".join(map(str, field.choices))
-                self._tell(issue("VALUE_NOT_IN_LIST", pointer, value=shown(value), allowed=listed))
-                return _BROKEN
-        elif field.kind == "TEXT":
-            if field.pattern is not None and not field.pattern.fullmatch(value):
-                self._tell(
-                    issue("PATTERN_MISMATCH", pointer, value=shown(value), pattern=field.pattern.pattern)
-                )
-                return _BROKEN
-        elif field.kind != "FLAG" and not _is_in_range(field, value):
-            self._tell(issue("VALUE_NOT_IN_RANGE", pointer, value=shown(value), range=_interval(field)))
-            return _BROKEN
-        if field.multiple_of and value % field.multiple_of:
-            self._tell(issue("VALUE_MULTIPLE_OF", pointer, value=value, factor=field.multiple_of))
-        return value
+    def _index_map(self, value: dict[str, Any], pointer: str) -> Any:
+        if not value:
+            return self._wrong(("EMPTY_ENTITY", {}), pointer)
+        indices = {key: self._index(item, pointer, key) for key, item in value.items()}
+        return {key: index for key, index in indices.items() if index is not None}
 
     def _mismatch(self, value: Any, wanted: str, pointer: str) -> Any:
-        self._tell(issue("TYPE_MISMATCH", pointer, value=shown(value), wanted=wanted))
-        return _BROKEN
+        return self._wrong(("TYPE_MISMATCH", {"value": shown(value), "wanted": wanted}), pointer)
+
+    def _wrong(self, complaint: tuple[str, dict[str, Any]], pointer: str) -> Any:
+        code, told = complaint
+        self._tell(issue(code, pointer, **told))
+        return BROKEN
 
 
-_READERS: dict[str, Callable[[Walk, Field, Any, str, Entry], Any]] = {
+_READERS: dict[str, Callable[[Walk, Field, Any, Entry], Any]] = {
     "ONE": Walk._one,
     "ARRAY": Walk._array,
     "MAP": Walk._map,
@@ -255,31 +284,3 @@ _ITEMS: dict[str, Callable[[Walk, Field, list[Any], str, Entry], Any]] = {
     "NUMBER": Walk._numbers,
     "TEXT": Walk._texts,
 }
-
-
-def _typed(kind: str, value: Any) -> Any:
-    """Return the value where it has the type of `kind`; 1.0 is an integer, as it is for JSON."""
-    if kind == "TEXT":
-        return value if isinstance(value, str) else _BROKEN
-    if kind == "FLAG":
-        return value if isinstance(value, bool) else _BROKEN
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return _BROKEN
-    if kind == "NUMBER":
-        return value
-    return int(value) if math.isfinite(value) and value == int(value) else _BROKEN
-
-
-def _is_in_range(field: Field, value: float) -> bool:
-    if not math.isfinite(value):
-        return False
-    if not field.has_range or value == field.also_allowed:
-        return True
-    if field.low is not None and (value < field.low or (field.low_is_excluded and value == field.low)):
-        return False
-    return field.high is None or value <= field.high
-
-
-def _interval(field: Field) -> str:
-    low = "(−∞" if field.low is None else f"{'(' if field.low_is_excluded else '['}{field.low:g}"
-    return f"{low}, {'∞)' if field.high is None else f'{field.high:g}]'}"
