@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from gltf_iri.validation.collector import Collector
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.options import Options
 from gltf_iri.validation.resources import Resources
 from gltf_iri.validation.walk import Walk
+
+if TYPE_CHECKING:
+    from gltf_iri.validation.image_info import ImageInfo
 
 __all__ = ["Asset"]
 
@@ -22,6 +26,7 @@ class Asset:
     folder : where files that the asset names lie; None where there is no such place.
     is_glb, binary : whether the file is a GLB, and the bytes of its BIN chunk.
     resources : the bytes of buffers and pictures.
+    images : what the headers of those pictures say that could be read, by index.
     """
 
     def __init__(
@@ -46,6 +51,7 @@ class Asset:
         self.is_glb = is_glb
         self.binary = binary
         self.resources = Resources(self)
+        self.images: dict[int, ImageInfo] = {}
 
     def array(self, name: str) -> list[Entry | None]:
         """Return the array that indices of `name` mean: "meshes", or "KHR_lights_punctual.lights"."""

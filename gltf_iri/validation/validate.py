@@ -11,6 +11,7 @@ from gltf_iri.asset.limits import MAX_FILE_BYTES
 from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.collector import Collector, EnoughError
+from gltf_iri.validation.images import check_images
 from gltf_iri.validation.links import check_links
 from gltf_iri.validation.options import Options
 from gltf_iri.validation.reading import Reading, read
@@ -90,6 +91,7 @@ def _judge(
     if not walk.is_known_version:
         return None
     _run(check_resources, asset)
+    _run(check_images, asset)
     _follow(DATA_RULES, asset)
     return None
 

@@ -9,7 +9,7 @@ from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.registry import Rules
-from gltf_iri.validation.tables import value_of
+from gltf_iri.validation.tables import sound_value_of
 
 __all__ = ["RULES"]
 
@@ -27,10 +27,9 @@ def light_states_what_its_type_reads(entry: Entry, asset: Asset) -> Iterator[Iss
 
 def cone_widens(entry: Entry, asset: Asset) -> Iterator[Issue]:
     """A spot fades from the inner angle to the outer; an angle that is broken is told of already."""
-    light, inner, outer = entry.parent, *(value_of(entry, f"{name}ConeAngle") for name in ("inner", "outer"))
-    is_broken = any(key in entry.raw and key not in entry for key in ("innerConeAngle", "outerConeAngle"))
-    is_spot = light is not None and light.get("type") == "spot"
-    if is_spot and not is_broken and outer <= inner:
+    inner, outer = sound_value_of(entry, "innerConeAngle"), sound_value_of(entry, "outerConeAngle")
+    is_spot = entry.parent is not None and entry.parent.get("type") == "spot"
+    if is_spot and inner is not None and outer is not None and outer <= inner:
         pointer = entry.at("outerConeAngle")
         yield issue("KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", pointer, inner=inner, outer=outer)
 

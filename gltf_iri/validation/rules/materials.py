@@ -9,7 +9,7 @@ from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.registry import Rules
-from gltf_iri.validation.tables import EXTENSIONS, value_of
+from gltf_iri.validation.tables import EXTENSIONS, sound_value_of, value_of
 
 __all__ = ["RULES"]
 
@@ -73,8 +73,8 @@ def thickness_range_and_texture_need_each_other(entry: Entry, asset: Asset) -> I
         if minimum in entry:
             yield issue("KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_WITHOUT_TEXTURE", entry.at(minimum))
         return
-    is_broken = any(key in entry.raw and key not in entry for key in (minimum, maximum))
-    if not is_broken and value_of(entry, minimum) == value_of(entry, maximum):
+    least = sound_value_of(entry, minimum)
+    if least is not None and least == sound_value_of(entry, maximum):
         pointer = entry.at("iridescenceThicknessTexture")
         yield issue("KHR_MATERIALS_IRIDESCENCE_THICKNESS_TEXTURE_UNUSED", pointer)
 
