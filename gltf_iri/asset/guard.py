@@ -8,7 +8,6 @@ import re
 import stat
 from pathlib import Path
 from typing import Final
-from urllib.parse import unquote, unquote_to_bytes
 
 from gltf_iri.asset.limits import MAX_ASSET_BYTES, MAX_DECODED_PER_BYTE, MAX_UNVOUCHED_BYTES
 from gltf_iri.asset.words import shown
@@ -100,6 +99,8 @@ def decode_data_uri(uri: str, pointer: str, max_bytes: int) -> tuple[bytes, str]
 
     Base64 is strict: no foreign characters, no missing padding.
     """
+    from urllib.parse import unquote_to_bytes  # slow to load, and most files need it not
+
     # The head is short: searching only there keeps a data URI without comma from being scanned whole.
     head = _DATA_URI.match(uri, 0, 1024)
     if head is None:
@@ -122,6 +123,8 @@ def decode_data_uri(uri: str, pointer: str, max_bytes: int) -> tuple[bytes, str]
 
 def _steps(uri: str, pointer: str) -> list[str]:
     """Folder names and file name of a relative URI; every other form is refused by its name."""
+    from urllib.parse import unquote
+
     scheme = _SCHEME.match(uri)
     if scheme:
         raise AssetError(
