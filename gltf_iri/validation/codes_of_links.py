@@ -14,11 +14,11 @@ CODES_OF_LINKS: dict[str, tuple[int, str]] = {
     ),
     "ACCESSOR_TOO_LONG": (
         ERROR,
-        "From offset {offset} on, {length} bytes do not fit buffer view {view} of {available}.",
+        "From offset {start} on, {length} bytes do not fit buffer view {view} of {available}.",
     ),
     "ACCESSOR_TOTAL_OFFSET_ALIGNMENT": (
         ERROR,
-        "The offset in the buffer, {offset}, is not a multiple of the component's {size} bytes.",
+        "The offset in the buffer, {start}, is not a multiple of the component's {size} bytes.",
     ),
     "ACCESSOR_USAGE_OVERRIDE": (ERROR, "The accessor serves as {initial} already and cannot serve as {new}."),
     "ANIMATION_CHANNEL_TARGET_NODE_MATRIX": (

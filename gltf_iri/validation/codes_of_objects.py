@@ -34,7 +34,7 @@ CODES_OF_OBJECTS: dict[str, tuple[int, str]] = {
     "ACCESSOR_NORMALIZED_INVALID": (ERROR, "Only 8- and 16-bit integers can be normalized."),
     "ACCESSOR_OFFSET_ALIGNMENT": (
         ERROR,
-        "The offset {offset} is not a multiple of the component's {size} bytes.",
+        "The offset {start} is not a multiple of the component's {size} bytes.",
     ),
     "ACCESSOR_SPARSE_COUNT_OUT_OF_RANGE": (
         ERROR,
