@@ -60,7 +60,7 @@ _OPEN_FORMATS = ("text", "json")
 @click.option(
     "--max-issues",
     type=click.IntRange(min=0),
-    help=f"Stop after so many remarks on a file, 0 for never.  [default: {DEFAULT_MAX_ISSUES}]",
+    help="Stop after so many remarks on a file; 0, the default, for never.",
 )
 @click.option("--no-resources", is_flag=True, help="Do not read buffers and pictures.")
 @click.option("--optics", is_flag=True, help="Measure in ΔE what remarks on films and layers mean; slow.")

@@ -12,6 +12,9 @@ from gltf_iri.errors import UsageError
 
 __all__ = ["ResultsFile"]
 
+# How every result begins.
+_HEAD = b'{"uri": "'
+
 
 class ResultsFile:
     """JSON Lines that grow with every result.
@@ -55,7 +58,7 @@ class ResultsFile:
         """Take in the results that are there; return how many bytes are whole lines."""
         whole = 0
         for number, line in enumerate(self._stream, 1):
-            if not line.endswith(b"\n"):
+            if not line.endswith(b"\n") and _is_beginning(line):
                 break
             report = self._parsed(line, number)
             self.done.add(report["uri"])
@@ -75,3 +78,8 @@ class ResultsFile:
                 f"Line {number} of '{self.path}' is no result of an earlier run; name another file."
             )
         return report
+
+
+def _is_beginning(line: bytes) -> bool:
+    """Tell whether a line that was cut off may be a result: another file must not lose its only line."""
+    return line.startswith(_HEAD) or _HEAD.startswith(line)
