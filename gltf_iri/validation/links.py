@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gltf_iri.validation.codes import issue
+from gltf_iri.validation.tables import TABLES
 
 if TYPE_CHECKING:
     from typing import Any
@@ -19,8 +20,11 @@ __all__ = ["check_links"]
 def check_links(asset: Asset) -> None:
     """Tell of indices that refer to nothing and take them out of their entries; mark what is referred to."""
     for entry, field in asset.references:
-        link = _Link(asset, entry, field)
         key = field.key
+        if _has_no_list(asset, entry, field):
+            del entry[key]
+            continue
+        link = _Link(asset, entry, field)
         value = entry[key]
         if isinstance(value, int):
             if not link.is_resolved(value, key):
@@ -33,6 +37,14 @@ def check_links(asset: Asset) -> None:
                     link.resolve_map(item, key, position)
                 elif item is not None and not link.is_resolved(item, key, position):
                     value[position] = None
+
+
+def _has_no_list(asset: Asset, entry: Entry, field: Field) -> bool:
+    """Whether there is no list at all to look into, which is told once for its holder."""
+    if field.refers_to == "animation.samplers":
+        return entry.parent is not None and "samplers" not in entry.parent
+    extension = TABLES[entry.table].listed_by
+    return bool(extension) and extension not in asset.root.extensions
 
 
 class _Link:

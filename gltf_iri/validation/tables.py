@@ -96,9 +96,10 @@ class Table:
     """One kind of object: its fields by key, and which must or must not stand together.
 
     parts : those properties of which the object has the one that its "type" names.
+    listed_by : the extension whose object at the root has the list that the object's indices mean, or "".
     """
 
-    __slots__ = ("fields", "name", "needing", "one_of", "parts", "required")
+    __slots__ = ("fields", "listed_by", "name", "needing", "one_of", "parts", "required")
 
     def __init__(
         self,
@@ -114,6 +115,8 @@ class Table:
         self.needing = tuple((field.key, field.needs) for field in fields if field.needs)
         self.one_of = one_of
         self.parts = parts
+        lists = [field.refers_to.rpartition(".")[0] for field in fields if field.refers_to]
+        self.listed_by = next((name for name in lists if name not in {"", "animation"}), "")
 
 
 class Extension:

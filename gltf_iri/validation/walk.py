@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from gltf_iri.asset.words import shown
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry, join
-from gltf_iri.validation.tables import EXTENSIONS, TABLES, Field
+from gltf_iri.validation.tables import EXTENSIONS, TABLES, Field, Table
 from gltf_iri.validation.values import BROKEN, WANTED, complaint, typed
 from gltf_iri.validation.version import KNOWN, version_key
 
@@ -103,12 +103,17 @@ class Walk:
             if raw.get(key) is None:
                 self._tell(issue("UNDEFINED_PROPERTY", entry.pointer or "/", property=key))
         for key, needs in table.needing:
-            if key in entry and needs not in entry:
+            if key in entry and needs not in entry and not self._is_unlisted(table, raw, needs):
                 self._tell(issue("UNSATISFIED_DEPENDENCY", entry.at(key), property=needs))
         if table.one_of and sum(key in entry for key in table.one_of) != 1:
             self._tell(issue("ONE_OF_MISMATCH", entry.pointer, properties=" and ".join(table.one_of)))
         if table.parts:
             self._parts(entry, sorted(table.parts & raw.keys()))
+
+    def _is_unlisted(self, table: Table, raw: dict[str, Any], key: str) -> bool:
+        """Whether a property is there, with a value of its type that is not in the list of those known."""
+        field = table.fields[key]
+        return bool(field.choices) and typed(field.kind, raw.get(key)) is not BROKEN
 
     def _parts(self, entry: Entry, given: list[str]) -> None:
         """Tell of an object whose "type" names a part that is missing, or that has two parts."""
@@ -129,12 +134,14 @@ class Walk:
                 self._mismatch(raw, "an object", place)
             if name not in self.declared:
                 self._tell(issue("UNDECLARED_EXTENSION", place))
-            elif name in EXTENSIONS and isinstance(raw, dict):
+            elif name in EXTENSIONS:
                 table = EXTENSIONS[name].objects.get(entry.table)
                 if table is None:
                     self._tell(issue("UNEXPECTED_EXTENSION_OBJECT", place))
                 else:
-                    entry.extensions[name] = self.object(table, raw, place, entry)
+                    # What is no object counts as an empty one, as for the Khronos validator.
+                    stated = raw if isinstance(raw, dict) else {}
+                    entry.extensions[name] = self.object(table, stated, place, entry)
         if len(value) > 1:
             for name in entry.extensions:
                 if EXTENSIONS[name].stands_alone:

@@ -13,6 +13,8 @@ from gltf_iri.validation.tables import sound_value_of
 
 __all__ = ["RULES"]
 
+_EXTENSION = "KHR_lights_punctual"
+
 
 def light_states_what_its_type_reads(entry: Entry, asset: Asset) -> Iterator[Issue]:
     """A spot light has a cone and no other light has; parallel light has no range."""
@@ -34,7 +36,14 @@ def cone_widens(entry: Entry, asset: Asset) -> Iterator[Issue]:
         yield issue("KHR_LIGHTS_PUNCTUAL_LIGHT_SPOT_ANGLES", pointer, inner=inner, outer=outer)
 
 
+def node_needs_the_list_of_lights(entry: Entry, asset: Asset) -> Iterator[Issue]:
+    """Nodes name lights of a list that stands at the root."""
+    if _EXTENSION not in asset.root.extensions:
+        yield issue("UNSATISFIED_DEPENDENCY", entry.pointer, property=f"/extensions/{_EXTENSION}")
+
+
 RULES: Rules = {
+    "KHR_lights_punctual.node": (node_needs_the_list_of_lights,),
     "KHR_lights_punctual.light": (light_states_what_its_type_reads,),
     "KHR_lights_punctual.light.spot": (cone_widens,),
 }

@@ -12,6 +12,8 @@ from gltf_iri.validation.rules.registry import Rules
 
 __all__ = ["RULES"]
 
+_EXTENSION = "KHR_materials_variants"
+
 
 def variant_has_one_material(entry: Entry, asset: Asset) -> Iterator[Issue]:
     """Each variant stands once in all mappings of a primitive; one that does not exist counts too."""
@@ -27,4 +29,13 @@ def variant_has_one_material(entry: Entry, asset: Asset) -> Iterator[Issue]:
                 seen.add(index)
 
 
-RULES: Rules = {"KHR_materials_variants.primitive": (variant_has_one_material,)}
+def mapping_needs_the_list_of_variants(entry: Entry, asset: Asset) -> Iterator[Issue]:
+    """Mappings name variants of a list that stands at the root."""
+    if _EXTENSION not in asset.root.extensions:
+        yield issue("UNSATISFIED_DEPENDENCY", entry.pointer, property=f"/extensions/{_EXTENSION}")
+
+
+RULES: Rules = {
+    "KHR_materials_variants.mapping": (mapping_needs_the_list_of_variants,),
+    "KHR_materials_variants.primitive": (variant_has_one_material,),
+}
