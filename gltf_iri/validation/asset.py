@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -9,6 +10,7 @@ from gltf_iri.validation.collector import Collector
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.options import Options
 from gltf_iri.validation.resources import Resources
+from gltf_iri.validation.trees import Trees
 from gltf_iri.validation.walk import Walk
 
 if TYPE_CHECKING:
@@ -52,6 +54,11 @@ class Asset:
         self.binary = binary
         self.resources = Resources(self)
         self.images: dict[int, ImageInfo] = {}
+
+    @cached_property
+    def trees(self) -> Trees:
+        """The trees of all nodes; ask after the links were checked."""
+        return Trees(self.array("nodes"))
 
     def array(self, name: str) -> list[Entry | None]:
         """Return the array that indices of `name` mean: "meshes", or "KHR_lights_punctual.lights"."""

@@ -43,6 +43,12 @@ _KINDS = {
 }
 
 
+_TOLD_WHERE_STATED = (
+    *("required", "low", "high", "low_is_excluded", "also_allowed", "multiple_of", "choices", "refers_to"),
+    *("table", "min_items", "max_items", "is_unique", "needs", "pattern", "colour_space", "counts_as_use"),
+)
+
+
 def tables_json() -> str:
     """Return the text of validation/tables.json: every object's rows, and where each extension stands."""
     objects = {**OBJECTS, **EXTENSION_OBJECTS}
@@ -135,10 +141,7 @@ def _told(row: Row) -> Iterator[tuple[str, Any]]:
     if row.shape is not Shape.ONE:
         yield "shape", row.shape.name
     plain = Row(row.key, row.kind, row.shape)
-    names = ("required", "low", "high", "low_is_excluded", "also_allowed", "multiple_of", "choices")
-    names += ("refers_to", "table", "min_items", "max_items", "is_unique", "needs", "pattern", "colour_space")
-    names += ("counts_as_use",)
-    for name in names:
+    for name in _TOLD_WHERE_STATED:
         value = getattr(row, name)
         is_said_by_link = name == "needs" and value == row.refers_to
         if value != getattr(plain, name) and not is_said_by_link:
