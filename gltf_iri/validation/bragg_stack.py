@@ -10,10 +10,16 @@ from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.rules.pointers import animated_properties
 from gltf_iri.validation.tables import value_of
 
-__all__ = ["EXTENSION", "Layer", "Stack", "stacks"]
+__all__ = ["EXTENSION", "TRANSMISSION", "Layer", "Stack", "stacks"]
 
 EXTENSION = "EXT_materials_bragg"
 _PERIOD_TEXTURE = "braggPeriodTexture"
+
+# Extensions by which a material lets light through, and the factor that says how much.
+TRANSMISSION = {
+    "KHR_materials_transmission": "transmissionFactor",
+    "KHR_materials_diffuse_transmission": "diffuseTransmissionFactor",
+}
 
 # JSON's integers have no end, and floats do.
 _GREATEST = 1e300
@@ -74,9 +80,34 @@ class Stack:
         self.count = len(listed)
         self.layers = [Layer(self, layer, i) for i, layer in enumerate(listed) if layer is not None]
 
+    @property
+    def is_active(self) -> bool:
+        """Whether there are layers at any time."""
+        # A broken factor is one that will be mended.
+        return self.count > 0 and (
+            number(self.entry, "braggFactor") != 0.0 or self.is_animated("braggFactor")
+        )
+
+    def tokens(self, *keys: str) -> Tokens:
+        """Return the tokens of the pointer to a property of the extension."""
+        return (*self._place, *keys)
+
     def is_animated(self, *keys: str) -> bool:
         """Whether an animation moves the property of the extension that `keys` lead to."""
-        return (*self._place, *keys) in self._animated
+        return self.tokens(*keys) in self._animated
+
+    def why_unbent(self, layer: Layer) -> str:
+        """Return why the first index of `layer` must be the host's; "" where nothing says so."""
+        if layer.position < self.count - 1:
+            return "only the last layer may have another"
+        pbr = self.material.raw.get("pbrMetallicRoughness", {})
+        if isinstance(pbr, dict) and _is_above_zero(pbr.get("metallicFactor", 1.0)):
+            return "metallicFactor is not 0" + ("" if "metallicFactor" in pbr else " (its default is 1)")
+        for name, key in TRANSMISSION.items():
+            carried = self.material.raw["extensions"].get(name)
+            if isinstance(carried, dict) and _is_above_zero(carried.get(key, 0.0)):
+                return f"{key} is not 0"
+        return ""
 
 
 def stacks(asset: Asset) -> Iterator[Stack]:
@@ -88,6 +119,10 @@ def stacks(asset: Asset) -> Iterator[Stack]:
             if animated is None:
                 animated = animated_properties(asset)
             yield Stack(material, entry, position, animated)
+
+
+def _is_above_zero(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and value > 0.0
 
 
 def number(entry: Entry, key: str) -> float | None:

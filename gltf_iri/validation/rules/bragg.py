@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from gltf_iri.asset.words import shown
 from gltf_iri.material.bragg_limits import (
@@ -19,18 +19,15 @@ from gltf_iri.validation.bragg_stack import EXTENSION, Layer, Stack, stacks
 from gltf_iri.validation.codes import add_codes, issue
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
+from gltf_iri.validation.rules.bragg_animation import animated_indices
 from gltf_iri.validation.rules.bragg_effects import effects
+from gltf_iri.validation.rules.bragg_textures import Steps, conflicts, pictures
+from gltf_iri.validation.rules.iridescence_textures import colour_images
 from gltf_iri.validation.rules.registry import Rules
 
-__all__ = ["RULES"]
+__all__ = ["DATA_RULES", "RULES"]
 
 _EXCLUDED = ("KHR_materials_iridescence", "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness")
-
-# Extensions by which a material lets light through, and the factor that says how much.
-_TRANSMISSION = {
-    "KHR_materials_transmission": "transmissionFactor",
-    "KHR_materials_diffuse_transmission": "diffuseTransmissionFactor",
-}
 
 # Of a layer: property, what every reader accepts, what this one draws.
 _LIMITS = (
@@ -43,54 +40,69 @@ _LIMITS = (
 
 
 def _layers(root: Entry, asset: Asset) -> Iterator[Issue]:
+    if EXTENSION not in asset.declared:
+        return
     is_used = False
+    colours: dict[int, str] | None = None
     for stack in stacks(asset):
         is_used = True
-        yield from _exclusions(stack)
-        yield from _first_indices(stack)
-        yield from _limits(stack)
-        yield from effects(stack)
+        colours = colour_images(asset) if colours is None else colours
+        yield from _told(stack, _of_stack(stack, asset, colours), asset)
     yield from _declarations(root, is_used=is_used)
 
 
+def _of_stack(stack: Stack, asset: Asset, colours: dict[int, str]) -> Iterator[Issue]:
+    yield from _exclusions(stack)
+    yield from _first_indices(stack)
+    if not _excluded_by(stack):
+        yield from _limits(stack)
+        yield from effects(stack)
+        if stack.is_active:
+            yield from conflicts(stack, asset, colours)
+
+
+def _data(root: Entry, asset: Asset) -> Iterator[Issue]:
+    """Tell what pictures and animations make of the layers."""
+    if EXTENSION not in asset.declared:
+        return
+    steps = Steps()
+    for stack in stacks(asset):
+        if stack.is_active and not _excluded_by(stack):
+            yield from _told(stack, pictures(stack, asset, steps), asset)
+    yield from animated_indices(asset)
+
+
+def _told(stack: Stack, remarks: Iterable[Issue], asset: Asset) -> Iterator[Issue]:
+    """Yield the remarks, with what they mean in ΔE where the user wants to know."""
+    if not asset.options.optics:
+        yield from remarks
+        return
+    from gltf_iri.validation.optics.layer_consequences import with_consequence
+
+    for remark in remarks:
+        yield with_consequence(remark, stack)
+
+
 def _exclusions(stack: Stack) -> Iterator[Issue]:
+    for other in _excluded_by(stack):
+        yield issue("IRI_BRAGG_EXCLUDED", stack.entry.pointer, other=other)
+
+
+def _excluded_by(stack: Stack) -> tuple[str, ...]:
     others = stack.material.raw["extensions"]
-    for other in _EXCLUDED:
-        if other in others:
-            yield issue("IRI_BRAGG_EXCLUDED", stack.entry.pointer, other=other)
+    return tuple(name for name in _EXCLUDED if name in others)
 
 
 def _first_indices(stack: Stack) -> Iterator[Issue]:
     """Tell of films that bend light which goes on to something that does not forget its direction."""
     host = stack.host_ior
     for layer in stack.layers:
-        if layer.ior1 is None or host is None or layer.ior1 == host:
-            continue  # what is broken is told of already
-        if layer.position < stack.count - 1:
-            reason = "only the last layer may have another"
-        else:
-            reason = _below(stack.material)
-        if reason:
-            yield issue(
-                "IRI_BRAGG_FIRST_INDEX", layer.entry.at("ior1"), ior1=layer.ior1, host=host, reason=reason
-            )
-
-
-def _below(material: Entry) -> str:
-    """Return what of the material does not let a bending layer lie over it; "" where nothing is known to."""
-    pbr = material.raw.get("pbrMetallicRoughness", {})
-    if isinstance(pbr, dict) and _is_above_zero(pbr.get("metallicFactor", 1.0)):
-        stated = "" if "metallicFactor" in pbr else " (its default is 1)"
-        return f"metallicFactor is not 0{stated}"
-    for name, key in _TRANSMISSION.items():
-        carried = material.raw["extensions"].get(name)
-        if isinstance(carried, dict) and _is_above_zero(carried.get(key, 0.0)):
-            return f"{key} is not 0"
-    return ""
-
-
-def _is_above_zero(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and value > 0.0
+        # What is broken is told of already.
+        if layer.ior1 is not None and host is not None and layer.ior1 != host:
+            reason = stack.why_unbent(layer)
+            if reason:
+                place = layer.entry.at("ior1")
+                yield issue("IRI_BRAGG_FIRST_INDEX", place, ior1=layer.ior1, host=host, reason=reason)
 
 
 def _limits(stack: Stack) -> Iterator[Issue]:
@@ -130,3 +142,4 @@ def _declarations(root: Entry, *, is_used: bool) -> Iterator[Issue]:
 
 add_codes(BRAGG_CODES)
 RULES: Rules = {"glTF": (_layers,)}
+DATA_RULES: Rules = {"glTF": (_data,)}

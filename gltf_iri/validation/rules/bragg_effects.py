@@ -34,9 +34,10 @@ def effects(stack: Stack) -> Iterator[Issue]:
         yield issue("IRI_BRAGG_NO_LAYERS", entry.pointer)
         return
     stated = "braggFactor" in entry.raw
-    if not stack.is_animated("braggFactor") and (entry.get("braggFactor") == 0.0 or not stated):
+    if stack.count and not stack.is_active:
         place = entry.at("braggFactor") if stated else entry.pointer
         yield issue("IRI_BRAGG_FACTOR_ZERO", place, by_default="" if stated else " by default")
+        return
     for layer in stack.layers:
         yield from _periods(layer, has_texture=stack.has_period_texture)
         yield from _mirror(layer, stack.host_ior)
