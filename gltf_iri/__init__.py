@@ -1,6 +1,6 @@
 """Reference implementation of KHR_materials_iridescence: evaluator, renderer and spectral truth for glTF.
 
-The Python face is four functions; the errors they raise stand in `gltf_iri.errors`. Importing the package
+The Python face is five functions; the errors they raise stand in `gltf_iri.errors`. Importing the package
 imports none of the machinery behind them.
 
 >>> import gltf_iri
@@ -13,7 +13,7 @@ from __future__ import annotations
 import typing
 
 if typing.TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
     from os import PathLike
 
     from numpy.typing import ArrayLike
@@ -28,8 +28,9 @@ if typing.TYPE_CHECKING:
     from gltf_iri.rendering.frame import Frame
     from gltf_iri.scene.load import Model
     from gltf_iri.scene.model import Camera, Environment
+    from gltf_iri.validation.report import Report
 
-__all__ = ["__version__", "evaluate", "load", "plan", "render"]
+__all__ = ["__version__", "evaluate", "load", "plan", "render", "validate"]
 
 __version__ = "0.1.0"
 
@@ -246,6 +247,46 @@ def render(
         )
     finally:
         context.release()
+
+
+def validate(
+    source: str | PathLike[str] | bytes,
+    *,
+    uri: str | None = None,
+    folder: str | PathLike[str] | None = None,
+    ignore: Iterable[str] = (),
+    only: Iterable[str] = (),
+    override: Mapping[str, int] | None = None,
+    max_issues: int = 0,
+    resources: bool = True,
+    optics: bool = False,
+) -> Report:
+    """Tell what is wrong with a glTF file, as the Khronos validator does, and what its films and layers do.
+
+    ``.issues`` are the remarks, from severity 0, an error, to 3, a hint; ``.has_errors`` is the verdict, and
+    ``.to_json()`` the report in the Khronos validator's format. Codes that begin with IRI_ are our own.
+
+    Parameters
+    ----------
+    source : path of a .gltf or .glb file, or its bytes.
+    uri : what the report calls the file; without it the path.
+    folder : where the files that it names lie; without it the file's own folder, for bytes none.
+    ignore, only : codes to leave out, or to tell alone.
+    override : code to severity.
+    max_issues : stop after so many remarks; 0 for all.
+    resources : whether buffers and pictures beside the file are read.
+    optics : measure in ΔE what the remarks on films and layers mean, which takes seconds.
+
+    Raises UsageError where `source` cannot be read, AssetError where it is larger than any file may be.
+    """
+    from pathlib import Path
+
+    from gltf_iri.validation.options import Options
+    from gltf_iri.validation.validate import validate as validate_file
+
+    options = Options(max_issues=max_issues, resources=resources, optics=optics, override=override or {})
+    options.ignore, options.only = frozenset(ignore), frozenset(only)
+    return validate_file(source, uri=uri, folder=None if folder is None else Path(folder), options=options)
 
 
 def _check_alone(chosen: object) -> None:

@@ -185,6 +185,18 @@ def test_load_gives_materials_and_refuses_what_is_not_there(model, tmp_path):
         gltf_iri.load(tmp_path / "nothing.glb")
 
 
+def test_validate_takes_a_path_or_bytes_and_reports(model, tmp_path):
+    report = gltf_iri.validate(tmp_path / "triangle.gltf", only={"ACCESSOR_MAX_MISMATCH"})
+    assert (report.uri, report.has_errors, report.issues) == (str(tmp_path / "triangle.gltf"), False, ())
+    data = (tmp_path / "triangle.gltf").read_bytes()
+    assert [issue.code for issue in gltf_iri.validate(data, only=["IO_ERROR"]).issues] == ["IO_ERROR"]
+    found = gltf_iri.validate(data, folder=tmp_path, uri="a.gltf", only=["IO_ERROR"])
+    assert (found.uri, found.issues) == ("a.gltf", ())
+    assert gltf_iri.validate(b"[", override={"INVALID_JSON": 1}).counts == (0, 1, 0, 0)
+    with pytest.raises(UsageError):
+        gltf_iri.validate(tmp_path / "nothing.glb")
+
+
 @pytest.mark.gl
 def test_render_draws_the_scene_and_leaves_the_background(model, gl_context):
     frame = gltf_iri.render(model, size=(40, 30), environment=white(), method="khr")

@@ -14,6 +14,7 @@ from gltf_iri.validation.collector import Collector, EnoughError
 from gltf_iri.validation.images import check_images
 from gltf_iri.validation.links import check_links
 from gltf_iri.validation.options import Options
+from gltf_iri.validation.plugins import load_plugins
 from gltf_iri.validation.reading import Reading, read
 from gltf_iri.validation.report import Report
 from gltf_iri.validation.resources import check_resources
@@ -62,6 +63,7 @@ def validate(
     reading: Reading | None = None
     info: dict[str, Any] | None = None
     with suppress(EnoughError):  # the report says that it is cut short
+        collector.add_all(load_plugins())
         reading = read(data, name, collector.add)
         if reading.root is not None:
             info = _judge(reading.root, reading, collector, chosen, place)

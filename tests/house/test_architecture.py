@@ -70,6 +70,7 @@ OPENERS = {
     "samples/collection.py",  # the program's own pictures, and the index of an earlier collection
     "baking/cache.py",  # tables that it wrote itself, and the sources that filled them
     "planning/costs.py",  # the program's own map of costs
+    "validation/plugins.py",  # which installed packages bring rules
     "validation/tables.py",  # the program's own tables
     "validation/results_file.py",  # the results of a run that may be broken off and go on
     "cli/main.py",  # the null device
