@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from io import BytesIO
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gltf_iri.asset.guard import read_given
 from gltf_iri.asset.limits import MAX_FILE_BYTES
-from gltf_iri.errors import AssetError, GltfIriError
+from gltf_iri.errors import AssetError, GltfIriError, UsageError
 from gltf_iri.validation.find import STDIN
 from gltf_iri.validation.formats.judged import Judged
 from gltf_iri.validation.options import Options
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 __all__ = ["ask_khronos", "judge_files"]
 
 Keep = Callable[[str], None]
+
+_PIECE_BYTES = 2**20
 
 
 def judge_files(
@@ -83,11 +86,21 @@ def _judge_alone(file: str, options: Options, keep: Keep | None) -> Judged:
 
 
 def _judge_stdin(options: Options, keep: Keep | None) -> Judged:
-    data = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)
-    if len(data) > MAX_FILE_BYTES:
-        raise AssetError(f"standard input has more than the {MAX_FILE_BYTES} bytes allowed")
+    data = _read_stdin()
     report: dict[str, Any] = validate(data, uri=STDIN, options=options).to_json()
     return _kept(Judged(STDIN, report, data=data), keep)
+
+
+def _read_stdin() -> bytes:
+    if sys.stdin is None:
+        raise UsageError("Standard input is closed: give the path of a file instead of '-'.")
+    # Piece by piece: asking for the whole bound at once would reserve it.
+    data = BytesIO()
+    while piece := sys.stdin.buffer.read(_PIECE_BYTES):
+        if data.tell() + len(piece) > MAX_FILE_BYTES:
+            raise AssetError(f"standard input has more than the {MAX_FILE_BYTES} bytes allowed")
+        data.write(piece)
+    return data.getvalue()
 
 
 def _kept(judged: Judged, keep: Keep | None) -> Judged:

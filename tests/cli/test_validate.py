@@ -103,6 +103,12 @@ def test_standard_input_beyond_the_bound_is_refused(call, monkeypatch):
     assert "more than the 10 bytes allowed" in err
 
 
+def test_a_closed_standard_input_is_told(call, monkeypatch):
+    monkeypatch.setattr(sys, "stdin", None)
+    code, _, err = call("-")
+    assert (code, err) == (2, "gltf-iri: Standard input is closed: give the path of a file instead of '-'.\n")
+
+
 # --- what the user wants to hear
 
 
