@@ -35,7 +35,7 @@ _STATED: dict[str, tuple[int, str, str]] = {
     ),
     "IRI_IRIDESCENCE_FILM_IS_AIR": (
         WARNING,
-        "The film's index is the outside's, 1: there is no film, and the text draws one all the same.",
+        "The film's index is the outside's, 1: the extension's formula draws a film that is not there.",
         "Material Interfaces: Schlick's term at F0 = 0 still reflects all grazing light, and the floor of "
         "R123 draws fringes; three.js, Babylon.js and the Khronos sample renderer follow the text in it.",
     ),
@@ -70,12 +70,12 @@ _STATED: dict[str, tuple[int, str, str]] = {
     ),
     "IRI_IRIDESCENCE_THICKNESS_ABSURD": (
         WARNING,
-        "A film of {nm:g} nm is thicker than a millimetre; thicknesses are in nanometres.",
+        "A film of {mm:g} mm is no thin film; thicknesses are in nanometres.",
         "Properties: in nanometres, without an upper bound. No colours are left four orders below this.",
     ),
     "IRI_IRIDESCENCE_THICKNESS_INCOHERENT": (
         INFORMATION,
-        "From {nm:g} nm on, this film's fringes are too fine to be seen: it is grey, or as its base is.",
+        "From {nm:.0f} nm on, this film's fringes are too fine to be seen: it is grey, or as its base is.",
         "Properties: more thickness, more pastel. Straight on, 600 random films (index up to 4) are within "
         "ΔE 1 of their mean over all phases from a path difference of 6.4 µm on.",
     ),
@@ -87,19 +87,19 @@ _STATED: dict[str, tuple[int, str, str]] = {
     ),
     "IRI_IRIDESCENCE_BASE_REFLECTS_ALL": (
         WARNING,
-        "The base, {lobe}, reflects all light: no film can be seen on it, and the text is undefined there.",
+        "The base, {lobe}, reflects all light: no film can be seen on it, and the formula is undefined.",
         "Material Interfaces: baseF0 + 0.0001 divides by zero at 0.9999 and makes the base's index negative "
         "above. PlayCanvas does so; three.js, Babylon.js and the Khronos sample renderer cut F0 to 0.9999.",
     ),
     "IRI_IRIDESCENCE_BASE_F0_UNDEFINED": (
         INFORMATION,
-        "The base, {lobe}, reflects all of {channels}: the text is undefined there, and renderers differ.",
+        "The base, {lobe}, reflects all of {channels}: the extension's formula is undefined there.",
         "Material Interfaces: baseF0 + 0.0001 divides by zero at 0.9999 and makes the base's index negative "
         "above. PlayCanvas does so; three.js, Babylon.js and the Khronos sample renderer cut F0 to 0.9999.",
     ),
     "IRI_IRIDESCENCE_INDEX_ORDER": (
         HINT,
-        "The film's index {ior:g} is above its base's, {lobe}: the text takes pow() of a negative number.",
+        "The film's index {ior:g} is above its base's, {lobe}: a negative number in the formula's pow().",
         "Material Interfaces: IorToFresnel0 squares by pow(x, 2.0), which GLSL leaves undefined below 0. "
         "PlayCanvas has it so; three.js, Babylon.js and the Khronos sample renderer multiply x by x.",
     ),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,6 +13,9 @@ import pytest
 from gltf_iri.validation.options import Options
 from gltf_iri.validation.report import Report
 from gltf_iri.validation.validate import validate
+
+# At the end: no module of another folder is hidden.
+sys.path.append(str(Path(__file__).resolve().parent))
 
 Judge = Callable[..., Report]
 Codes = Callable[..., set[tuple[str, str | int | None]]]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,7 +13,8 @@ from gltf_iri.evaluation.film import Film as OpticalFilm
 from gltf_iri.evaluation.film import base_from_f0
 from gltf_iri.evaluation.fourier import evaluate_fourier
 from gltf_iri.evaluation.incoherent import evaluate_incoherent
-from gltf_iri.evaluation.khr import evaluate_khr
+from gltf_iri.evaluation.khr import F0_OFFSET, evaluate_khr
+from gltf_iri.evaluation.khr_guarded import MAX_F0
 
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
@@ -29,9 +31,6 @@ COSINES = np.linspace(1.0, 0.2, 9)
 # A base colour that its texture multiplies is half of its factor, for want of better knowledge.
 _TEXTURED = 0.5
 
-# No film of matter; and mirrors without end would take the truth seconds.
-_GREATEST_IOR = 10.0
-
 # How finely a range of thicknesses is looked at: over 400 nm of range, steps of 12 nm.
 _SAMPLES = 33
 
@@ -39,6 +38,7 @@ _METHODS: dict[str, Any] = {
     "truth": evaluate_fourier,  # within ΔE 0.01 of the converged integral
     "letter": lambda film, white: evaluate_khr(film, white, backend="numpy"),
     "mean": evaluate_incoherent,
+    "cut": lambda film, white: evaluate_khr(_cut(film), white, backend="numpy"),
 }
 
 
@@ -53,11 +53,10 @@ def film_colours(
 ) -> Float64:
     """Return (cosines, thicknesses, 3) linear Rec.709 under D65.
 
-    method : "truth", "letter" (the extension's text), or "mean" over all phases.
+    method : "truth", "letter" (the extension's text), "cut" (the same, with F0 cut to 0.9999, as by most
+        renderers), or "mean" over all phases.
     Raises UsageError where a value is beyond what the optics take.
     """
-    if film_ior > _GREATEST_IOR:
-        raise UsageError(f"No film has an index of {film_ior:g}.")
     share = 1.0 if base.is_known else _TEXTURED
     f0 = np.clip(share * np.asarray(base.f0, dtype=np.float64), 0.0, 1.0)
     angles = np.atleast_1d(np.asarray(cosines, dtype=np.float64))[:, None]
@@ -65,6 +64,11 @@ def film_colours(
     film = OpticalFilm.of(angles, nm, film_ior, base_from_f0(f0), outside_ior)
     with np.errstate(all="ignore"):  # the letter of the text divides by zero
         return np.broadcast_to(_METHODS[method](film, "D65").rgb, (*film.shape, 3))
+
+
+def _cut(film: OpticalFilm) -> OpticalFilm:
+    """Return the film on a base whose F0 is 0.9999 at most once the text has added to it."""
+    return replace(film, base=base_from_f0(np.minimum(film.base.f0, MAX_F0 - F0_OFFSET)))
 
 
 def thicknesses(film: Film) -> Float64:

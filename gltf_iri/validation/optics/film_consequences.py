@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gltf_iri.errors import UsageError
+from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.validation.optics.banding import largest_step
 from gltf_iri.validation.optics.film_colours import (
     COSINES,
@@ -43,20 +44,21 @@ def with_consequence(remark: Issue, film: Film) -> Issue:
     measured = _MEASURED.get(remark.code)
     if measured is None:
         return remark
-    sentence, measure = measured
+    subject, verb, measure = measured
     try:
         worst = max(measure(film, base, remark) for base in bases_of(film))
     except UsageError:  # the file asks for what no film can be
         return remark
-    return remark._replace(message=f"{remark.message} {sentence.format(amount=_amount(worst))}")
+    return remark._replace(message=f"{remark.message} {_told(subject, verb, worst)}")
 
 
-def _amount(delta_e: float) -> str:
+def _told(subject: str, verb: str, delta_e: float) -> str:
     if math.isnan(delta_e):
-        return "differ: they are no numbers"
+        return f"{subject} cannot be compared: some are no numbers."
     if delta_e < 0.01:
-        return "differ by less than ΔE 0.01"
-    return f"differ by up to ΔE {delta_e:.{0 if delta_e >= 10.0 else 2 if delta_e < 0.1 else 1}f}"
+        return f"{subject} {verb} by less than ΔE 0.01."
+    digits = 0 if delta_e >= 10.0 else 1 if delta_e >= 0.1 else 2
+    return f"{subject} {verb} by up to ΔE {delta_e:.{digits}f}."
 
 
 def _from_bare(film: Film, base: Base, remark: Issue) -> float:
@@ -78,13 +80,28 @@ def _blended(film: Film, base: Base, one: float, other: float) -> float:
 def _to_the_letter(film: Film, base: Base, remark: Issue) -> float:
     """Return how far the text's formula is from the truth."""
     nm = thicknesses(film)
-    return largest_difference(
-        film_colours(base, nm, film.ior, method="letter"), film_colours(base, nm, film.ior)
-    )
+    letter = film_colours(base, nm, film.ior, method="letter")
+    return largest_difference(letter, film_colours(base, nm, film.ior))
 
 
-def _of_dielectric(film: Film, base: Base, remark: Issue) -> float:
-    return _to_the_letter(film, base, remark) if base.has_index(film.ior) else 0.0
+def _phantom(film: Film, base: Base, remark: Issue) -> float:
+    """Return what the text's formula makes of a film that does nothing."""
+    letter = film_colours(base, thicknesses(film), film.ior, method="letter")
+    bare = f_schlick(np.asarray(base.f0), COSINES[:, None])[:, None, :]
+    return largest_difference(letter, bare)
+
+
+def _phantom_on_dielectric(film: Film, base: Base, remark: Issue) -> float:
+    return _phantom(film, base, remark) if base.has_index(film.ior) else 0.0
+
+
+def _between_readers(film: Film, base: Base, remark: Issue) -> float:
+    """Return how far readers that follow the text are from those that cut F0 to 0.9999."""
+    if not base.is_known:
+        return 0.0
+    nm = thicknesses(film)
+    letter = film_colours(base, nm, film.ior, method="letter")
+    return largest_difference(letter, film_colours(base, nm, film.ior, method="cut"))
 
 
 def _from_mean(film: Film, base: Base, remark: Issue) -> float:
@@ -155,45 +172,35 @@ def _is_strength(film: Film, remark: Issue) -> bool:
 
 Measure = Callable[["Film", "Base", "Issue"], float]
 
-_TO_THE_LETTER = ("Drawn to the letter of the text, colours {amount} from the truth.", _to_the_letter)
-_STRONG = ("At factor 1 colours would {amount}.", _from_bare)
+_DIFFER = "differ"
+_READERS = "To the letter of the text, and with F0 cut to 0.9999, colours"
+_PHANTOM = "To the letter of the text, colours with and without this film"
 
-# Code to a sentence about the largest ΔE, and how it is measured on one base.
-_MEASURED: dict[str, tuple[str, Measure]] = {
-    "IRI_IRIDESCENCE_EXCLUDED": ("With and without the film colours {amount}.", _as_drawn),
-    "IRI_IRIDESCENCE_FACTOR_ZERO": _STRONG,
-    "IRI_IRIDESCENCE_IDLE": _STRONG,
-    "IRI_IRIDESCENCE_FILM_IS_AIR": _TO_THE_LETTER,
-    "IRI_IRIDESCENCE_FILM_IS_BASE": _TO_THE_LETTER,
-    "IRI_IRIDESCENCE_FILM_IS_DIELECTRIC": (_TO_THE_LETTER[0], _of_dielectric),
-    "IRI_IRIDESCENCE_IOR_ABSURD": _TO_THE_LETTER,
-    "IRI_IRIDESCENCE_THICKNESS_ZERO": _TO_THE_LETTER,
-    "IRI_IRIDESCENCE_THICKNESS_TINY": ("With and without the film colours {amount}.", _from_bare),
-    "IRI_IRIDESCENCE_THICKNESS_ABSURD": ("Colours {amount} from the mean of all phases.", _from_mean),
-    "IRI_IRIDESCENCE_THICKNESS_INCOHERENT": ("Colours {amount} from the mean of all phases.", _from_mean),
-    "IRI_IRIDESCENCE_MINIMUM_ABOVE_MAXIMUM": (
-        "Where readers order the two, colours {amount}.",
-        _from_reverse,
-    ),
-    "IRI_IRIDESCENCE_BASE_REFLECTS_ALL": _TO_THE_LETTER,
-    "IRI_IRIDESCENCE_BASE_F0_UNDEFINED": _TO_THE_LETTER,
-    "IRI_IRIDESCENCE_INDEX_ORDER": (
-        "Where that is no number and drawn black, colours {amount}.",
-        _from_black,
-    ),
-    "IRI_IRIDESCENCE_UNDER_CLEARCOAT": ("With the coat for the outside colours {amount}.", _under_coat),
-    "IRI_IRIDESCENCE_TEXCOORD_OVERRIDDEN": (
-        "At other places of the texture colours {amount}.",
-        _between_texels,
-    ),
-    "IRI_IRIDESCENCE_COLOUR_SPACE": ("At the middle value, decoded wrongly, colours {amount}.", _decoded),
+# Code to the subject and the verb of a sentence about the largest ΔE, and how it is measured on one base.
+_MEASURED: dict[str, tuple[str, str, Measure]] = {
+    "IRI_IRIDESCENCE_EXCLUDED": ("With and without the film colours", _DIFFER, _as_drawn),
+    "IRI_IRIDESCENCE_FACTOR_ZERO": ("At factor 1 colours would", _DIFFER, _from_bare),
+    "IRI_IRIDESCENCE_IDLE": ("At factor 1 colours would", _DIFFER, _from_bare),
+    "IRI_IRIDESCENCE_FILM_IS_AIR": (_PHANTOM, _DIFFER, _phantom),
+    "IRI_IRIDESCENCE_FILM_IS_BASE": (_PHANTOM, _DIFFER, _phantom),
+    "IRI_IRIDESCENCE_FILM_IS_DIELECTRIC": (_PHANTOM, _DIFFER, _phantom_on_dielectric),
+    "IRI_IRIDESCENCE_IOR_ABSURD": ("To the letter of the text, colours", "are off", _to_the_letter),
+    "IRI_IRIDESCENCE_THICKNESS_ZERO": (_PHANTOM, _DIFFER, _phantom),
+    "IRI_IRIDESCENCE_THICKNESS_TINY": ("With and without the film colours", _DIFFER, _from_bare),
+    "IRI_IRIDESCENCE_THICKNESS_ABSURD": ("From their mean over all phases colours", _DIFFER, _from_mean),
+    "IRI_IRIDESCENCE_THICKNESS_INCOHERENT": ("From their mean over all phases colours", _DIFFER, _from_mean),
+    "IRI_IRIDESCENCE_MINIMUM_ABOVE_MAXIMUM": ("With the two in order colours", _DIFFER, _from_reverse),
+    "IRI_IRIDESCENCE_BASE_REFLECTS_ALL": (_READERS, _DIFFER, _between_readers),
+    "IRI_IRIDESCENCE_BASE_F0_UNDEFINED": (_READERS, _DIFFER, _between_readers),
+    "IRI_IRIDESCENCE_INDEX_ORDER": ("Where that gives black, colours", "are off", _from_black),
+    "IRI_IRIDESCENCE_UNDER_CLEARCOAT": ("With either outside colours", _DIFFER, _under_coat),
+    "IRI_IRIDESCENCE_TEXCOORD_OVERRIDDEN": ("Across the texture colours", _DIFFER, _between_texels),
+    "IRI_IRIDESCENCE_COLOUR_SPACE": ("Decoded wrongly, colours at the middle value", "are off", _decoded),
     "IRI_IRIDESCENCE_THICKNESS_LOSSY": (
-        "Where compression is off by 1 of 255, colours {amount}.",
+        "Where a texel is off by 1 of 255, colours",
+        "are off",
         _by_one_value,
     ),
-    "IRI_IRIDESCENCE_THICKNESS_GREY": ("Where G is lost, colours {amount}.", _without_green),
-    "IRI_IRIDESCENCE_ONE_CHANNEL": (
-        "At the strength 0 that the minimum gets, colours {amount}.",
-        _at_minimum,
-    ),
+    "IRI_IRIDESCENCE_THICKNESS_GREY": ("Where G is lost, colours", "are off", _without_green),
+    "IRI_IRIDESCENCE_ONE_CHANNEL": ("With and without the thinnest film colours", _DIFFER, _at_minimum),
 }

@@ -72,8 +72,8 @@ def _thickness(film: Film) -> Iterator[Issue]:
     elif film.greatest_nm < _TINY_NM:
         yield issue("IRI_IRIDESCENCE_THICKNESS_TINY", place, nm=film.greatest_nm)
     elif film.greatest_nm > _ABSURD_NM:
-        yield issue("IRI_IRIDESCENCE_THICKNESS_ABSURD", place, nm=film.greatest_nm)
-    elif 2.0 * film.ior * film.least_nm > COHERENCE_NM:
+        yield issue("IRI_IRIDESCENCE_THICKNESS_ABSURD", place, mm=film.greatest_nm / _ABSURD_NM)
+    elif film.ior <= _ABSURD_IOR and 2.0 * film.ior * film.least_nm > COHERENCE_NM:
         yield issue("IRI_IRIDESCENCE_THICKNESS_INCOHERENT", place, nm=COHERENCE_NM / (2.0 * film.ior))
     if film.minimum_nm > film.maximum_nm and film.thickness is not None:
         told = {"minimum": film.minimum_nm, "maximum": film.maximum_nm}

@@ -60,17 +60,28 @@ def images_of(film: Film, asset: Asset, steps: Steps) -> Iterator[Issue]:
     info = film.thickness
     if info is None or (film.least_nm == film.greatest_nm and film.has_steady_thickness):
         return  # a texture that chooses nothing
-    image = getattr(asset, "images", {}).get(image_of(info, asset))
-    if image is None or image.width * image.height == 1:
+    index = image_of(info, asset)
+    image = asset.images.get(index) if index is not None else None
+    if index is None or image is None or image.width * image.height == 1:
         return
-    if image.media_type == "image/jpeg" or image.is_lossy:
-        name = image.media_type.removeprefix("image/").upper()
-        yield issue("IRI_IRIDESCENCE_THICKNESS_LOSSY", info.pointer, format=name)
-    if image.format in ("luminance", "luminance-alpha"):
+    compression = _lossy(image.media_type, asset.resources.image(index))
+    if compression is not None:
+        yield issue("IRI_IRIDESCENCE_THICKNESS_LOSSY", info.pointer, format=compression)
+    if image.pixel_format in ("luminance", "luminance-alpha"):
         is_shared = film.strength is not None and film.strength.raw == info.raw
         code = "IRI_IRIDESCENCE_ONE_CHANNEL" if is_shared else "IRI_IRIDESCENCE_THICKNESS_GREY"
         yield issue(code, info.pointer)
     yield from _steps(film, image.bits, steps)
+
+
+def _lossy(media_type: str, data: bytes | memoryview | None) -> str | None:
+    """Return the name of a compression that does not keep its values."""
+    if media_type == "image/jpeg":
+        return "JPEG"
+    # RFC 9649, §2.5: the first chunk of a plain lossy file; where colour profiles or alpha stand before it,
+    # nobody looks further.
+    is_lossy_webp = media_type == "image/webp" and data is not None and bytes(data[12:16]) == b"VP8 "
+    return "lossy WebP" if is_lossy_webp else None
 
 
 def _steps(film: Film, bits: int, steps: Steps) -> Iterator[Issue]:
