@@ -153,7 +153,8 @@ def command(
             judged = ask_khronos(judged, find_khronos(), options)
         watch = _Watch(judged)
         is_quiet = keep is not None and form == "json"
-        if len(files) > 1 and (form == "text" or is_quiet or not sys.stdout.isatty()):
+        # On a terminal the results themselves show how far it is; a bar below them would cost more than they.
+        if len(files) > 1 and (is_quiet or not sys.stdout.isatty()):
             watch.advance = held.enter_context(progress("Checking", len(files)))
         for piece in _written(form, watch, is_one=is_one):
             if not is_quiet:
@@ -244,10 +245,11 @@ def _results_file(out: Path | None, resume: Path | None) -> ResultsFile:
 
 
 def _print_codes(*, as_json: bool) -> None:
-    from gltf_iri.validation.codes_table import rows
+    from gltf_iri.validation.codes_table import every_code, rows
 
+    listed = list(rows(every_code()))
     columns = ("code", "severity", "message")
     if as_json:
-        print_json([dict(zip(columns, row, strict=True)) for row in rows()])
+        print_json([dict(zip(columns, row, strict=True)) for row in listed])
     else:
-        print_table(columns, rows())
+        print_table(columns, listed)

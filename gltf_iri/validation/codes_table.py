@@ -3,33 +3,34 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from gltf_iri.validation.codes import CODES
+from gltf_iri.validation.codes_of_links import CODES_OF_LINKS
+from gltf_iri.validation.codes_of_objects import CODES_OF_OBJECTS
 from gltf_iri.validation.issue import SEVERITY_NAMES
 
 __all__ = ["OWN", "as_text", "codes_markdown", "every_code", "rows"]
 
-# How our own codes begin; all others are the Khronos validator's, or a plug-in's.
+# How our own codes begin; all others are the Khronos validator's, or of rules from outside.
 OWN = "IRI_"
 
 _PLACEHOLDER = re.compile(r"\{(\w+)[^}]*\}")
 
 
 def every_code() -> dict[str, tuple[int, str]]:
-    """Return code to severity and sentence, of all that may be told."""
-    # These bring codes of their own.
-    from gltf_iri.validation import many as _many  # noqa: F401
-    from gltf_iri.validation.rules import every as _every  # noqa: F401
+    """Return code to severity and sentence, of all that may be told here, rules from outside included."""
+    from gltf_iri.validation.plugins import load_plugins
 
+    _load_own()
+    load_plugins()
     return CODES
 
 
-def rows() -> Iterator[tuple[str, str, str]]:
+def rows(codes: Iterable[str]) -> Iterator[tuple[str, str, str]]:
     """Yield code, severity and sentence, our own codes first, each group by name."""
-    known = every_code()
-    for code in sorted(known, key=lambda code: (not code.startswith(OWN), code)):
-        severity, sentence = known[code]
+    for code in sorted(codes, key=lambda code: (not code.startswith(OWN), code)):
+        severity, sentence = CODES[code]
         yield code, SEVERITY_NAMES[severity], as_text(sentence)
 
 
@@ -39,7 +40,8 @@ def as_text(sentence: str) -> str:
 
 
 def codes_markdown() -> str:
-    """Return spec/validator-codes.md."""
+    """Return spec/validator-codes.md, which has no rules from outside, whatever is installed."""
+    _load_own()
     return "\n".join(
         (
             "# Codes of `gltf-iri validate`",
@@ -49,24 +51,29 @@ def codes_markdown() -> str:
             "",
             "## Our own",
             "",
-            *_table(is_own=True),
+            *_table(code for code in CODES if code.startswith(OWN)),
             "",
             "## The Khronos validator's",
             "",
             "The names and severities of KhronosGroup/glTF-Validator, ISSUES.md (2.0.0-dev.3.11); "
             "the sentences are ours.",
             "",
-            *_table(is_own=False),
+            *_table((*CODES_OF_OBJECTS, *CODES_OF_LINKS)),
             "",
         )
     )
 
 
-def _table(*, is_own: bool) -> Iterator[str]:
+def _load_own() -> None:
+    # These bring codes of their own.
+    from gltf_iri.validation import many as _many  # noqa: F401
+    from gltf_iri.validation import validate as _validate  # noqa: F401
+
+
+def _table(codes: Iterable[str]) -> Iterator[str]:
     yield "| code | severity | what it says |"
     yield "|---|---|---|"
-    for code, severity, sentence in rows():
-        if code.startswith(OWN) == is_own:
-            # Bars would end the cell, and square brackets may look like links.
-            told = re.sub(r"([|\[\]*_<`\\])", r"\\\1", sentence)
-            yield f"| `{code}` | {severity} | {told} |"
+    for code, severity, sentence in rows(codes):
+        # Bars would end the cell, and brackets, stars and the like are Markdown.
+        told = re.sub(r"([|\[\]*_<`\\])", r"\\\1", sentence)
+        yield f"| `{code}` | {severity} | {told} |"
