@@ -19,10 +19,9 @@ import time
 import traceback
 import warnings
 from pathlib import Path
-from typing import Final
 
-from mutate import break_bytes, break_gltf
-from road import PAGE, walk
+from road import walk
+from victims import assets, breakage, resident, ring
 
 from gltf_iri.errors import AssetError
 from gltf_iri.planning.decide import plan_materials
@@ -33,7 +32,6 @@ from gltf_iri.scene.environment import white
 from gltf_iri.scene.load import load
 from gltf_iri.scene.model import Environment
 
-LARGEST_ASSET = 1 << 20  # bytes with all its files: larger ones would only slow the search down
 LONGEST_SENTENCE = 300
 MOST_SECONDS = 3.0
 HANG_SECONDS = 20
@@ -41,49 +39,6 @@ SHARE_DRAWN = 0.08
 # Caches and the driver's compiler settle; what the process holds later than this may not grow for good.
 SETTLED = 0.25
 MOST_GROWTH = 150 * 2**20  # bytes
-BESIDE: Final = (".bin", ".png", ".jpg", ".jpeg", ".webp")
-
-
-class HangError(Exception):
-    """A file took so long that the alarm rang."""
-
-
-def ring(*_: object) -> None:
-    raise HangError
-
-
-def resident() -> int:
-    """Return the bytes of memory that this process holds now."""
-    return int(Path("/proc/self/statm").read_text(encoding="ascii").split()[1]) * PAGE
-
-
-def assets(folders: list[Path]) -> list[Path]:
-    """Return the files to break: whole small assets only."""
-    found = [p for folder in folders for p in sorted(folder.rglob("*.gl*")) if p.suffix in (".gltf", ".glb")]
-    return [path for path in found if sum(f.stat().st_size for f in belonging(path)) <= LARGEST_ASSET]
-
-
-def belonging(path: Path) -> list[Path]:
-    """Return `path` and, for a .gltf, every file of its folder."""
-    if path.suffix == ".glb":
-        return [path]
-    return [path, *(f for f in path.parent.rglob("*") if f.is_file() and f != path)]
-
-
-def breakage(path: Path, place: Path, chance: random.Random) -> Path:
-    """Copy the asset to `place` with one of its files broken; return the copy."""
-    victims = [path] * 4 + [f for f in belonging(path) if f.suffix in BESIDE]
-    victim = chance.choice(victims)
-    for source in belonging(path):
-        copy = place / source.relative_to(path.parent)
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        data = source.read_bytes()
-        if source == victim == path:
-            data = break_gltf(data, chance, is_glb=path.suffix == ".glb")
-        elif source == victim:
-            data = break_bytes(data, chance)
-        copy.write_bytes(data)
-    return place / path.name
 
 
 def draw(renderer: Renderer, path: Path, environment: Environment) -> None:

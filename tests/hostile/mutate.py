@@ -72,8 +72,14 @@ def _break_token(text: bytes, chance: random.Random) -> bytes:
 
 
 def _break_tree(text: bytes, chance: random.Random) -> bytes:
-    """Replace, delete, copy or add members of the parsed JSON."""
-    tree = json.loads(text)
+    """Replace, delete, copy or add members of the parsed JSON; of what is no JSON, break the bytes."""
+    try:
+        tree = json.loads(text)
+        is_tree = isinstance(tree, dict | list) and len(tree) > 0
+    except (ValueError, RecursionError):
+        is_tree = False
+    if not is_tree:
+        return break_bytes(text, chance)
     for _ in range(chance.choice([1, 1, 1, 2, 3])):
         places = list(_places(tree))
         holder, key = chance.choice(places)
