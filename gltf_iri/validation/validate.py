@@ -12,6 +12,7 @@ from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.collector import Collector, EnoughError
 from gltf_iri.validation.images import check_images
+from gltf_iri.validation.info import asset_info
 from gltf_iri.validation.links import check_links
 from gltf_iri.validation.options import Options
 from gltf_iri.validation.plugins import load_plugins
@@ -95,7 +96,8 @@ def _judge(
     _run(check_resources, asset)
     _run(check_images, asset)
     _follow(DATA_RULES, asset)
-    return None
+    told: dict[str, Any] | None = _run(asset_info, asset)
+    return told
 
 
 def _follow(rules: Rules, asset: Asset) -> None:
