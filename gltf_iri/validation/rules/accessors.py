@@ -13,7 +13,7 @@ from gltf_iri.validation.rules.accessor_bounds import bounds
 from gltf_iri.validation.rules.registry import Rules
 from gltf_iri.validation.tables import sound_value_of
 
-__all__ = ["RULES", "element_bytes", "sparse_parts"]
+__all__ = ["RULES", "element_bytes", "names_view", "sparse_parts"]
 
 # §3.6.2.4, in bytes.
 _MATRIX_ALIGNMENT = 4
@@ -23,6 +23,12 @@ def element_bytes(accessor: Entry) -> int:
     """Return the bytes of one element, without padding behind it; 0 where the type is none."""
     columns, rows = TYPE_SHAPE.get(accessor.get("type", ""), (0, 0))
     return used_bytes(columns, rows, COMPONENT_BYTES.get(accessor.get("componentType", 0), 0))
+
+
+def names_view(accessor: Entry) -> bool:
+    """Whether the file gives the accessor a buffer view, be it one that does not exist."""
+    index = accessor.raw.get("bufferView")
+    return isinstance(index, int) and index >= 0
 
 
 def sparse_parts(accessor: Entry, asset: Asset) -> Iterator[tuple[Entry, Entry]]:
@@ -47,7 +53,7 @@ def _normalized(accessor: Entry, asset: Asset) -> Iterator[Issue]:
 
 def _matrix_alignment(accessor: Entry, asset: Asset) -> Iterator[Issue]:
     columns, _ = TYPE_SHAPE.get(accessor.get("type", ""), (1, 1))
-    if columns > 1 and accessor.get("byteOffset", 0) % _MATRIX_ALIGNMENT and "bufferView" in accessor.raw:
+    if columns > 1 and accessor.get("byteOffset", 0) % _MATRIX_ALIGNMENT and names_view(accessor):
         yield issue("ACCESSOR_MATRIX_ALIGNMENT", accessor.at("byteOffset"))
 
 

@@ -104,15 +104,20 @@ def _duplicates(channels: list[Entry]) -> Iterator[Issue]:
     """Tell of every channel after which another one moves the same property."""
     later: dict[tuple[object, object], int] = {}
     for position in reversed(range(len(channels))):
-        target = channels[position].get("target")
-        # An index that refers to nothing, or a path that is none, can stand twice as well.
+        channel = channels[position]
+        target = channel.get("target")
+        # The node need not exist, nor the path be one: that both stand twice is wrong all the same.
         node, path = (target.raw.get(key) for key in ("node", "path")) if target is not None else (None, None)
-        if target is None or isinstance(node, bool) or not isinstance(node, (int, float)) or node < 0:
+        if target is None or not _is_index(node):
             continue
         moved = (node, path if isinstance(path, str) else None)
-        if moved in later:
+        if moved in later and _is_index(channel.raw.get("sampler")):
             yield issue("ANIMATION_DUPLICATE_TARGETS", target.pointer, channel=later[moved])
         later[moved] = position
+
+
+def _is_index(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and value >= 0 and value % 1 == 0
 
 
 RULES: Rules = {"animation": (_animations,)}

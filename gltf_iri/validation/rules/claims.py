@@ -40,32 +40,32 @@ class _Claims:
         # Buffer views to the accessors of vertices that read them.
         self._readers: dict[Entry, set[Entry]] = {}
 
-    def view(self, view: Entry, use: str, pointer: str) -> Iterator[Issue]:
-        """Use a buffer view for `use`; `pointer` is the place that does."""
+    def view(self, view: Entry, use: str, user: Entry, *keys: str | int) -> Iterator[Issue]:
+        """Use a buffer view for `use`; `user` does, at `keys`."""
         initial = self._views.get(view) or _BY_TARGET.get(view.get("target", 0))
         if initial is None and use in _BY_TARGET.values():
-            yield issue("BUFFER_VIEW_TARGET_MISSING", pointer)
+            yield issue("BUFFER_VIEW_TARGET_MISSING", user.at(*keys))
         if initial is None or initial == use:
             self._views[view] = use
         else:
-            yield issue("BUFFER_VIEW_TARGET_OVERRIDE", pointer, initial=initial, new=use)
+            yield issue("BUFFER_VIEW_TARGET_OVERRIDE", user.at(*keys), initial=initial, new=use)
 
-    def accessor(self, index: int | None, use: str, pointer: str) -> Iterator[Issue]:
+    def accessor(self, index: int | None, use: str, user: Entry, *keys: str | int) -> Iterator[Issue]:
         """Use an accessor, if there is one, and the buffer view that it reads."""
         accessor = self._asset.get("accessors", index)
         if accessor is None:
             return
         initial = self._accessors.setdefault(accessor, use)
         if initial != use:
-            yield issue("ACCESSOR_USAGE_OVERRIDE", pointer, initial=initial, new=use)
+            yield issue("ACCESSOR_USAGE_OVERRIDE", user.at(*keys), initial=initial, new=use)
         view = self._asset.get("bufferViews", accessor.get("bufferView"))
         if view is None:
             return
-        yield from self.view(view, _OTHER if use in (_TIMES, _KEYFRAMES) else use, pointer)
+        yield from self.view(view, _OTHER if use in (_TIMES, _KEYFRAMES) else use, user, *keys)
         if use == _VERTICES and "byteStride" not in view:
             readers = self._readers.setdefault(view, set())
             if readers and accessor not in readers:
-                yield issue("MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE", pointer)
+                yield issue("MESH_PRIMITIVE_ACCESSOR_WITHOUT_BYTESTRIDE", user.at(*keys))
             readers.add(accessor)
 
 
@@ -77,7 +77,7 @@ def _claims(root: Entry, asset: Asset) -> Iterator[Issue]:
     for image in asset.array("images"):
         view = asset.get("bufferViews", image.get("bufferView")) if image is not None else None
         if image is not None and view is not None:
-            yield from claims.view(view, _PICTURE, image.at("bufferView"))
+            yield from claims.view(view, _PICTURE, image, "bufferView")
     for mesh in asset.array("meshes"):
         for primitive in mesh.get("primitives", ()) if mesh is not None else ():
             if primitive is not None:
@@ -85,28 +85,27 @@ def _claims(root: Entry, asset: Asset) -> Iterator[Issue]:
     for skin in asset.array("skins"):
         if skin is not None:
             index = skin.get("inverseBindMatrices")
-            yield from claims.accessor(index, _MATRICES, skin.at("inverseBindMatrices"))
+            yield from claims.accessor(index, _MATRICES, skin, "inverseBindMatrices")
     for animation in asset.array("animations"):
         for sampler in parts(animation)[1] if animation is not None else ():
-            yield from claims.accessor(sampler.get("input"), _TIMES, sampler.at("input"))
-            yield from claims.accessor(sampler.get("output"), _KEYFRAMES, sampler.at("output"))
+            yield from claims.accessor(sampler.get("input"), _TIMES, sampler, "input")
+            yield from claims.accessor(sampler.get("output"), _KEYFRAMES, sampler, "output")
 
 
 def _of_sparse(accessor: Entry, asset: Asset, claims: _Claims) -> Iterator[Issue]:
     for part, view in sparse_parts(accessor, asset):
-        pointer = part.at("bufferView")
-        yield from claims.view(view, _OTHER, pointer)
+        yield from claims.view(view, _OTHER, part, "bufferView")
         if "byteStride" in view:
-            yield issue("BUFFER_VIEW_INVALID_BYTE_STRIDE", pointer)
+            yield issue("BUFFER_VIEW_INVALID_BYTE_STRIDE", part.at("bufferView"))
 
 
 def _of_primitive(primitive: Entry, claims: _Claims) -> Iterator[Issue]:
     for name, index in primitive.get("attributes", {}).items():
-        yield from claims.accessor(index, _VERTICES, primitive.at("attributes", name))
-    yield from claims.accessor(primitive.get("indices"), _INDICES, primitive.at("indices"))
+        yield from claims.accessor(index, _VERTICES, primitive, "attributes", name)
+    yield from claims.accessor(primitive.get("indices"), _INDICES, primitive, "indices")
     for position, target in enumerate(targets_of(primitive)):
         for name, index in target.items():
-            yield from claims.accessor(index, _VERTICES, primitive.at("targets", position, name))
+            yield from claims.accessor(index, _VERTICES, primitive, "targets", position, name)
 
 
 RULES: Rules = {"glTF": (_claims,)}

@@ -18,7 +18,7 @@ from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.accessor_bounds import has_bounds
-from gltf_iri.validation.rules.accessors import element_bytes
+from gltf_iri.validation.rules.accessors import element_bytes, names_view
 from gltf_iri.validation.rules.attributes import semantic_of, targets_of
 from gltf_iri.validation.rules.registry import Rules
 from gltf_iri.validation.tables import sound_value_of
@@ -107,10 +107,9 @@ def _vertices(
         code, allowed = "MESH_PRIMITIVE_ATTRIBUTES_ACCESSOR_INVALID_FORMAT", ", ".join(formats[semantic])
         yield issue(code, pointer, format=accessor_format(accessor), allowed=allowed)
     view = asset.get("bufferViews", accessor.get("bufferView"))
-    if view is None:
-        return
-    step = 0 if "byteStride" in view else element_bytes(accessor)
-    if accessor.get("byteOffset", 0) % _VERTEX_ALIGNMENT or step % _VERTEX_ALIGNMENT:
+    step = 0 if view is None or "byteStride" in view else element_bytes(accessor)
+    offset = accessor.get("byteOffset", 0) if names_view(accessor) else 0
+    if offset % _VERTEX_ALIGNMENT or step % _VERTEX_ALIGNMENT:
         yield issue("MESH_PRIMITIVE_ACCESSOR_UNALIGNED", pointer)
 
 
