@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from gltf_iri.asset.guard import read_given
+from gltf_iri.asset.limits import MAX_JSON_BYTES
+from gltf_iri.errors import GltfIriError
 
 if TYPE_CHECKING:
     from gltf_iri.validation.khronos import Verdict
 
 __all__ = ["Judged"]
+
+# Commas and opening brackets of a text whose lines are looked up: more of them take longer than a second.
+_MOST_VALUES = 1_000_000
 
 
 class Judged:
@@ -47,4 +55,18 @@ class Judged:
 
     def lines(self) -> list[int | None]:
         """Return for each remark the line of the .gltf file that it speaks of, None where there is none."""
-        return [None] * len(self.messages)
+        pointers = [message.get("pointer") for message in self.messages]
+        wanted = {pointer for pointer in pointers if pointer is not None}
+        # A GLB's JSON has lines too, but nobody can open the file there.
+        if not wanted or self.report.get("mimeType") != "model/gltf+json":
+            return [None] * len(pointers)
+        from gltf_iri.validation.positions import lines_of
+
+        try:
+            data = read_given(Path(self.path), MAX_JSON_BYTES) if self.data is None else self.data
+        except GltfIriError:  # gone since, or on another machine
+            return [None] * len(pointers)
+        if sum(map(data.count, (b",", b"[", b"{"))) > _MOST_VALUES:
+            return [None] * len(pointers)
+        known = lines_of(data, wanted)
+        return [None if pointer is None else known.get(pointer) for pointer in pointers]
