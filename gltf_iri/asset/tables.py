@@ -62,6 +62,7 @@ class Row:
     pattern: str = ""  # the whole of a TEXT matches this regular expression
     colour_space: str = ""  # of a texture: "srgb" where its colours are stored so
     counts_as_use: bool = True  # of an index: what it refers to is used by it
+    is_per_component: bool = False  # an array as long as the accessor's elements have components
 
 
 def _text(
@@ -145,8 +146,8 @@ OBJECTS: Final[Mapping[str, tuple[Row, ...]]] = {
         Row("normalized", Kind.FLAG, default=False),
         _integer("count", 1, required=True),
         _text("type", *TYPE_SHAPE, required=True),
-        Row("max", Kind.NUMBER, Shape.ARRAY, max_items=16),
-        Row("min", Kind.NUMBER, Shape.ARRAY, max_items=16),
+        Row("max", Kind.NUMBER, Shape.ARRAY, max_items=16, is_per_component=True),
+        Row("min", Kind.NUMBER, Shape.ARRAY, max_items=16, is_per_component=True),
         _object("sparse", "accessor.sparse"),
     ),
     "accessor.sparse": (

@@ -46,6 +46,7 @@ _KINDS = {
 _TOLD_WHERE_STATED = (
     *("required", "low", "high", "low_is_excluded", "also_allowed", "multiple_of", "choices", "refers_to"),
     *("table", "min_items", "max_items", "is_unique", "needs", "pattern", "colour_space", "counts_as_use"),
+    "is_per_component",
 )
 
 

@@ -30,18 +30,20 @@ class Field:
     """One property: the row of `gltf_iri.asset.tables.Row` with the same names, ready to be read."""
 
     __slots__ = (
+        *("also_allowed", "choices", "colour_space", "counts_as_use", "default", "has_range", "high"),
         *(
-            "also_allowed",
-            "choices",
-            "colour_space",
-            "counts_as_use",
-            "default",
-            "has_range",
-            "high",
+            "is_per_component",
             "is_unique",
             "key",
+            "kind",
+            "low",
+            "low_is_excluded",
+            "max_items",
+            "min_items",
+            "multiple_of",
+            "needs",
+            "pattern",
         ),
-        *("kind", "low", "low_is_excluded", "max_items", "min_items", "multiple_of", "needs", "pattern"),
         *("refers_to", "required", "shape", "table"),
     )
 
@@ -68,6 +70,7 @@ class Field:
         pattern: str = "",
         colour_space: str = "",
         counts_as_use: bool = True,
+        is_per_component: bool = False,
     ) -> None:
         self.key = key
         self.kind = kind
@@ -89,6 +92,7 @@ class Field:
         self.pattern = re.compile(pattern) if pattern else None
         self.colour_space = colour_space
         self.counts_as_use = counts_as_use
+        self.is_per_component = is_per_component
         self.has_range = low is not None or high is not None
 
 
@@ -172,8 +176,11 @@ def value_of(entry: Entry, key: str) -> Any:
 
 
 def sound_value_of(entry: Entry, key: str) -> Any:
-    """Return the same, but None where the file states a value that was told of as broken."""
-    return None if key in entry.raw and key not in entry else value_of(entry, key)
+    """Return the same, but None where the file states a value that was told of as broken.
+
+    A null is told of too, but counts as if the property were left out, as for the Khronos validator.
+    """
+    return None if entry.raw.get(key) is not None and key not in entry else value_of(entry, key)
 
 
 TABLES: dict[str, Table] = {}

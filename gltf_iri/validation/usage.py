@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gltf_iri.validation.codes import issue
+from gltf_iri.validation.links import is_whole
 from gltf_iri.validation.tables import TARGETS
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ def check_usage(asset: Asset) -> None:
     for name in sorted(TARGETS):
         if name == _OF_EACH_ANIMATION:
             for animation in asset.array("animations"):
-                if animation is not None:
+                if animation is not None and is_whole(animation):
                     _tell_unused(asset, animation.get("samplers", ()))
         elif name != _USED_BY_THEMSELVES:
             _tell_unused(asset, asset.array(name))

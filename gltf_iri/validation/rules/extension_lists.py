@@ -38,10 +38,9 @@ def used_extensions_are_known(entry: Entry, asset: Asset) -> Iterator[Issue]:
 
 def required_extensions_are_used(entry: Entry, asset: Asset) -> Iterator[Issue]:
     """What is required stands in extensionsUsed too."""
-    required = entry.get("extensionsRequired", ())
-    if required and "extensionsUsed" not in entry.raw:
+    if "extensionsRequired" in entry.raw and "extensionsUsed" not in entry.raw:
         yield issue("UNSATISFIED_DEPENDENCY", entry.at("extensionsRequired"), property="extensionsUsed")
-    for position, name in enumerate(required):
+    for position, name in enumerate(entry.get("extensionsRequired", ())):
         if name not in asset.declared:
             pointer = entry.at("extensionsRequired", position)
             yield issue("UNUSED_EXTENSION_REQUIRED", pointer, extension=name)
