@@ -76,8 +76,8 @@ _STATED: dict[str, tuple[int, str, str]] = {
     "IRI_IRIDESCENCE_THICKNESS_INCOHERENT": (
         INFORMATION,
         "From {nm:.0f} nm on, this film's fringes are too fine to be seen: it is grey, or as its base is.",
-        "Properties: more thickness, more pastel. Straight on, 600 random films (index up to 4) are within "
-        "ΔE 1 of their mean over all phases from a path difference of 6.4 µm on.",
+        "Properties: more thickness, more pastel. Straight on, 1,500 random films (index up to 4) are within "
+        "ΔE 1 of their mean over all phases from a path difference of 6.5 µm on.",
     ),
     "IRI_IRIDESCENCE_MINIMUM_ABOVE_MAXIMUM": (
         INFORMATION,

@@ -1,4 +1,4 @@
-"""Writes what the validator says of every case beside it: ``python tests/validation/write_cases.py``.
+"""Writes what the validator says of every case beside it: ``python tests/validation/write_cases.py [FOLDER]``.
 
 Read each difference before it is committed: the reports are what the validator is held to.
 
@@ -10,6 +10,7 @@ Read each difference before it is committed: the reports are what the validator 
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -32,7 +33,9 @@ def folders() -> list[Path]:
 
 def report_of(case: Path, *, optics: bool = False) -> dict[str, Any]:
     """Return the report of a case as JSON, without the validator's version and its numbers of the asset."""
-    report = validate(case, uri=case.name, options=Options(max_issues=0, optics=optics)).to_json()
+    report = validate(
+        case, uri=case.name, options=Options(max_issues=0, optics=optics, raises=True)
+    ).to_json()
     del report["validatorVersion"]
     report.pop("info", None)
     return report
@@ -60,13 +63,15 @@ def as_text(report: dict[str, Any]) -> str:
     return json.dumps(report, indent=2, ensure_ascii=False) + "\n"
 
 
-def main() -> None:
-    """Write all reports anew."""
-    for case in cases():
-        case.with_suffix(".report.json").write_text(as_text(report_of(case)), encoding="utf-8")
+def main(names: list[str]) -> None:
+    """Write the reports of the folders `names`, or of all."""
     for folder in folders():
-        (folder / OPTICS).write_text(as_text(measured(folder)), encoding="utf-8")
+        if not names or folder.name in names:
+            for case in cases():
+                if case.parent == folder:
+                    case.with_suffix(".report.json").write_text(as_text(report_of(case)), encoding="utf-8")
+            (folder / OPTICS).write_text(as_text(measured(folder)), encoding="utf-8")
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])
