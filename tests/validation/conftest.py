@@ -26,7 +26,7 @@ def _judge(asset: dict[str, Any] | str | bytes, folder: Path | None = None, **op
     if isinstance(asset, dict):
         asset = json.dumps({"asset": {"version": "2.0"}, **asset})
     data = asset.encode() if isinstance(asset, str) else asset
-    return validate(data, folder=folder, options=Options(**{"max_issues": 0, **options}))
+    return validate(data, folder=folder, options=Options(**{"raises": True, **options}))
 
 
 @pytest.fixture
