@@ -12,14 +12,14 @@ POINTER_CODES: dict[str, tuple[int, str]] = {
     "IRI_POINTER_NOT_MUTABLE": (ERROR, "What {target} leads to cannot be animated: {reason}."),
     "IRI_POINTER_NODE_MATRIX": (ERROR, "A node with a matrix has no {property} that could be animated."),
     "IRI_POINTER_REPEATED": (ERROR, "{target} is animated by channel {first} already."),
-    "IRI_POINTER_OUTPUT_TYPE": (ERROR, "The values for {target} are {found}, not {wanted}."),
-    "IRI_POINTER_OUTPUT_COUNT": (ERROR, "There are {found} values for {target}, not {wanted}."),
+    "IRI_POINTER_OUTPUT_TYPE": (ERROR, "The type for {target} is {found}, not {wanted}."),
+    "IRI_POINTER_OUTPUT_COUNT": (ERROR, "The count is {found}, but {target} calls for {wanted}."),
     "IRI_POINTER_INTERPOLATION": (
         ERROR,
         "What is true or false cannot be interpolated by {found}: use STEP.",
     ),
     "IRI_POINTER_VALUE": (
         ERROR,
-        "{count} of the values for {target} are outside {range}, the first at {index}: {value}.",
+        "Values for {target} lie outside {range}: {count}, the first at {index}, {value}.",
     ),
 }

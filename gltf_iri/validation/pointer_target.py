@@ -133,7 +133,7 @@ class _Search:
         if not rest:
             return Target(self._tokens, field, length=count, holder=raw)
         if len(rest) > 1 or _index(rest[0]) >= count:
-            raise Unresolved("IRI_POINTER_UNDEFINED", f"there are {count} weights")
+            raise Unresolved("IRI_POINTER_UNDEFINED", "it is beyond the last weight")
         return Target(self._tokens, field, holder=raw)
 
     def _morph_targets(self, raw: dict[str, Any]) -> int:
@@ -185,7 +185,7 @@ def _item(values: Any, token: str, key: str) -> dict[str, Any]:
     count = len(values) if isinstance(values, list) else 0
     index = _index(token)
     if index >= count or not isinstance(values[index], dict):
-        raise Unresolved("IRI_POINTER_UNDEFINED", f"{key} has {count} entries")
+        raise Unresolved("IRI_POINTER_UNDEFINED", f"{key!r} ends before it")
     found: dict[str, Any] = values[index]
     return found
 

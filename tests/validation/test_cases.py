@@ -32,7 +32,7 @@ def test_every_report_belongs_to_a_case() -> None:
     assert reports == {case.with_suffix(".report.json") for case in cases()}
 
 
-@pytest.mark.parametrize("prefix", ["IRI_IRIDESCENCE_"])
+@pytest.mark.parametrize("prefix", ["IRI_BRAGG_", "IRI_IRIDESCENCE_", "IRI_POINTER_"])
 def test_every_code_of_ours_has_a_case(prefix: str) -> None:
     told = {
         message["code"]

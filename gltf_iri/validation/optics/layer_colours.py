@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from gltf_iri.colour.observer import WAVELENGTH_RANGE_NM
 from gltf_iri.colour.wavelength_grid import integrate_on_grid
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.mirror import Mirror
@@ -24,8 +25,13 @@ __all__ = ["COSINES", "bare_colours", "layer_colours", "periods", "stack_colours
 # From straight on to 78°, in the host: towards grazing light all surfaces are white.
 COSINES = np.linspace(1.0, 0.2, 9)
 
-# Every nanometre from 360 to 830: within ΔE 1 of the truth at 100 cells, and a hundredth of its time.
+# Every nanometre from 360 to 830, doubled until each fringe has a few: a hundredth of the truth's time. The
+# fringes of more than twenty cells, which hardly add to a colour, are not resolved.
 _WAVELENGTHS = 471
+_MOST_WAVELENGTHS = 64 * _WAVELENGTHS
+_PER_FRINGE = 8
+_FRINGES_AT_NM = 400.0
+_MOST_CELLS = 20
 
 # How finely a range of periods is looked at.
 _PERIODS = 33
@@ -41,7 +47,7 @@ def layer_colours(
     Raises UsageError where the file does not say what it is, or says what no mirror can be.
     """
     rows = MirrorRows(_mirror(layer, host_ior, period_nm, cosines))
-    rgb = integrate_on_grid(rows.reflectance, rows.count, _WAVELENGTHS, white="D65")
+    rgb = integrate_on_grid(rows.reflectance, rows.count, _samples(layer, period_nm), white="D65")
     return rgb.reshape(np.size(cosines), -1, 3)
 
 
@@ -50,30 +56,22 @@ def stack_colours(stack: Stack, texel: float) -> Float64:
 
     Every path is reflected once, and the base, without its own interface, takes what the layers let through.
     """
-    mirrors = []
-    for layer in stack.layers:
-        nm = periods(layer, np.array([texel]))
-        mirrors.append(MirrorRows(_mirror(layer, stack.host_ior, nm, COSINES)))
     metallic, colour = _base(stack)
-    cosine = COSINES[:, None]
-    under = (1.0 - metallic) * colour + metallic * f_schlick(colour, cosine)
+    under = (1.0 - metallic) * colour + metallic * f_schlick(colour, COSINES[:, None])
+    at = {layer: periods(layer, np.array([texel])) for layer in stack.layers}
+    mirrors = [MirrorRows(_mirror(layer, stack.host_ior, nm, COSINES)) for layer, nm in at.items()]
+    samples = max((_samples(layer, nm) for layer, nm in at.items()), default=_WAVELENGTHS)
 
-    def reflected(channel: int) -> Any:
-        def spectrum(rows: Any, wavelength_nm: Float64) -> Float64:
-            passed: Any = 1.0
-            total: Any = 0.0
-            for mirror in mirrors:
-                reflectance = mirror.reflectance(rows, wavelength_nm)
-                total = total + passed * reflectance
-                passed = passed * (1.0 - reflectance) ** 2
-            return np.asarray(total + passed * under[rows, channel][:, None])
+    def spectrum(rows: NDArray[np.intp], wavelength_nm: Float64) -> Float64:
+        total = np.zeros((len(rows), len(wavelength_nm)))
+        passed = np.ones_like(total)
+        for mirror in mirrors:
+            reflectance = mirror.reflectance(rows, wavelength_nm)
+            total += passed * reflectance
+            passed *= (1.0 - reflectance) ** 2
+        return np.asarray(total[..., None] + passed[..., None] * under[rows][:, None])
 
-        return spectrum
-
-    channels = [
-        integrate_on_grid(reflected(k), len(COSINES), _WAVELENGTHS, white="D65")[:, k] for k in range(3)
-    ]
-    return np.stack(channels, axis=-1)
+    return integrate_on_grid(spectrum, len(COSINES), samples, white="D65")
 
 
 def bare_colours(stack: Stack) -> Float64:
@@ -93,6 +91,20 @@ def periods(layer: Layer, texels: Float64 | None = None) -> Float64:
     if texels is None:
         texels = np.linspace(0.0, 1.0, _PERIODS) if low != high else np.array([1.0])
     return low + texels * (high - low)
+
+
+def _samples(layer: Layer, period_nm: ArrayLike) -> int:
+    """Return how many wavelengths the layer's fringes ask for; UsageError where it is too many."""
+    index = max(value or 0.0 for value in (layer.ior1, layer.ior2))
+    path_nm = 2.0 * index * float(np.max(period_nm)) * min(layer.cells or 1.0, _MOST_CELLS)
+    low, high = WAVELENGTH_RANGE_NM
+    wanted = (high - low) * _PER_FRINGE * path_nm / _FRINGES_AT_NM**2
+    samples = _WAVELENGTHS
+    while samples < wanted:
+        samples *= 2
+        if samples > _MOST_WAVELENGTHS:
+            raise UsageError("The fringes of such thick cells are too fine.")
+    return samples
 
 
 def _mirror(layer: Layer, host_ior: float | None, period_nm: ArrayLike, cosines: ArrayLike) -> Mirror:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from gltf_iri.asset.words import shown
 from gltf_iri.material.bragg_limits import (
     BRAGG_CELLS_MAX,
     BRAGG_IOR_ACCEPTED,
@@ -28,6 +27,9 @@ from gltf_iri.validation.rules.registry import Rules
 __all__ = ["DATA_RULES", "RULES"]
 
 _EXCLUDED = ("KHR_materials_iridescence", "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness")
+
+# JSON's integers have no end, and floats do.
+_GREATEST = 1e300
 
 # Of a layer: property, what every reader accepts, what this one draws.
 _LIMITS = (
@@ -126,7 +128,7 @@ def _beyond(entry: Entry, key: str, value: float, accepted: float, drawn: float)
     return issue(
         "IRI_BRAGG_BEYOND_LIMITS",
         entry.at(key),
-        value=shown(value),
+        value=f"{min(value, _GREATEST):.6g}",
         accepted=f"{accepted:g}",
         drawn=f"{drawn:g}",
     )

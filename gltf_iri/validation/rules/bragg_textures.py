@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gltf_iri.validation.codes import issue
+from gltf_iri.validation.rules.iridescence_images import lossy_format
 from gltf_iri.validation.rules.iridescence_textures import image_of
 
 if TYPE_CHECKING:
@@ -79,11 +80,11 @@ def pictures(stack: Stack, asset: Asset, steps: Steps) -> Iterator[Issue]:
     varying = [layer for layer in stack.layers if _step_nm(layer) > 0.0]
     index = image_of(info, asset) if info is not None and varying else None
     image = asset.images.get(index) if index is not None else None
-    if info is None or image is None or image.width * image.height == 1:
+    if info is None or index is None or image is None or image.width * image.height == 1:
         return
-    if image.media_type == "image/jpeg":
-        name = image.media_type.removeprefix("image/").upper()
-        yield issue("IRI_BRAGG_PERIOD_LOSSY", info.pointer, format=name)
+    compression = lossy_format(image.media_type, asset.resources.image(index))
+    if compression is not None:
+        yield issue("IRI_BRAGG_PERIOD_LOSSY", info.pointer, format=compression)
     if image.pixel_format in ("luminance", "luminance-alpha"):
         strength = stack.entry.get("braggTexture")
         is_shared = strength is not None and strength.raw == info.raw

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from gltf_iri.asset.formats import COMPONENT_NAMES
 from gltf_iri.asset.words import shown
 from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.codes import add_codes, issue
@@ -144,8 +145,8 @@ def _values(channel: Entry, target: Target, asset: Asset) -> Iterator[Issue]:
     interpolation = value_of(sampler, "interpolation")
     if target.field.kind == "FLAG":
         if component not in (None, _UNSIGNED_BYTE):
-            found = f"of component type {component}"
-            yield issue("IRI_POINTER_OUTPUT_TYPE", place, target=told, found=found, wanted="unsigned bytes")
+            found = COMPONENT_NAMES[component]
+            yield issue("IRI_POINTER_OUTPUT_TYPE", place, target=told, found=found, wanted="UNSIGNED_BYTE")
         if interpolation != "STEP":
             where = sampler.at("interpolation") if "interpolation" in sampler else sampler.pointer
             yield issue("IRI_POINTER_INTERPOLATION", where, found=interpolation)
