@@ -12,7 +12,7 @@ from typing import Final
 
 from gltf_iri.asset.tables import Kind, Row, Shape
 
-__all__ = ["EXTENSIONS", "EXTENSION_OBJECTS", "Extension"]
+__all__ = ["EXTENSIONS", "EXTENSION_OBJECTS", "PARTS", "Extension"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +88,9 @@ EXTENSION_OBJECTS: Final[Mapping[str, tuple[Row, ...]]] = {
     "KHR_mesh_quantization": (),
     "KHR_node_visibility": (Row("visible", Kind.FLAG, default=True),),
 }
+
+# Properties that are read only of an object whose "type" names them.
+PARTS: Final[Mapping[str, tuple[str, ...]]] = {"KHR_lights_punctual.light": ("spot",)}
 
 EXTENSIONS: Final[Mapping[str, Extension]] = {
     "EXT_texture_webp": Extension(

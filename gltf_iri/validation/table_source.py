@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
-from gltf_iri.asset.extension_tables import EXTENSION_OBJECTS, EXTENSIONS, Extension
+from gltf_iri.asset.extension_tables import EXTENSION_OBJECTS, EXTENSIONS, PARTS, Extension
 from gltf_iri.asset.tables import EXCLUSIVE, NAMED_BY_TYPE, OBJECTS, ONE_OF, Kind, Row, Shape
 from gltf_iri.material import fields
 from gltf_iri.material.fields import Property, properties
@@ -64,9 +64,8 @@ def tables_json() -> str:
     _add(objects, extensions, f"{PunctualLight.EXTENSION}.light", PunctualLight)
     stated = {
         "objects": {name: [_row(row) for row in rows] for name, rows in objects.items()},
-        "exclusive": EXCLUSIVE,
         "oneOf": ONE_OF,
-        "namedByType": sorted(NAMED_BY_TYPE),
+        "parts": {**_parts(), **PARTS},
         "extensions": {
             name: {
                 "objects": dict(extension.objects),
@@ -80,6 +79,11 @@ def tables_json() -> str:
     return (
         json.dumps(stated, separators=(",", ":")).replace('{"key"', '\n{"key"').replace("],", "],\n") + "\n"
     )
+
+
+def _parts() -> dict[str, tuple[str, ...]]:
+    """Return the properties among which an object's "type" chooses, by the object's table."""
+    return {name: (key, *others) for name in NAMED_BY_TYPE for key, others in EXCLUSIVE[name]}
 
 
 def _add(objects: dict[str, tuple[Row, ...]], extensions: dict[str, Extension], name: str, cls: type) -> None:

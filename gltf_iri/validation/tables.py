@@ -99,7 +99,7 @@ class Field:
 class Table:
     """One kind of object: its fields by key, and which must or must not stand together.
 
-    parts : those properties of which the object has the one that its "type" names.
+    parts : those properties of which the object has only the one that its "type" names.
     listed_by : the extension whose object at the root has the list that the object's indices mean, or "".
     """
 
@@ -149,15 +149,13 @@ def add_tables(stated: dict[str, Any]) -> None:
     known = (stated["objects"].keys() & TABLES) | (stated["extensions"].keys() & EXTENSIONS)
     if known:
         raise ValueError(f"{min(known)} is known already")
-    exclusive, one_of = stated.get("exclusive", {}), stated.get("oneOf", {})
-    by_type = stated.get("namedByType", ())
+    parts, one_of = stated.get("parts", {}), stated.get("oneOf", {})
     for name, rows in stated["objects"].items():
-        parts = {part for key, others in exclusive.get(name, ()) for part in (key, *others)}
         TABLES[name] = Table(
             name,
             [Field(**row) for row in rows],
             one_of=tuple(one_of.get(name, ())),
-            parts=frozenset(parts if name in by_type else ()),
+            parts=frozenset(parts.get(name, ())),
         )
         TARGETS.update(row["refers_to"] for row in rows if "refers_to" in row)
     for name, extension in stated["extensions"].items():

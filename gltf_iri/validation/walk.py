@@ -107,7 +107,7 @@ class Walk:
                 self.tell(issue("UNSATISFIED_DEPENDENCY", entry.at(key), property=needs))
         if table.one_of and sum(key in entry for key in table.one_of) != 1:
             self.tell(issue("ONE_OF_MISMATCH", entry.pointer, properties=" and ".join(table.one_of)))
-        if table.parts:
+        if len(table.parts) > 1:
             self._parts(entry, sorted(table.parts & raw.keys()))
 
     def _is_unlisted(self, table: Table, raw: dict[str, Any], key: str) -> bool:
