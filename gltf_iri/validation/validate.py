@@ -77,7 +77,13 @@ def _judge(
 ) -> dict[str, Any] | None:
     """Run every stage and return the `info` block; of an unknown version the first stages, and no block."""
     walk = Walk(collector)
-    root = walk.root(raw)
+    try:
+        root = walk.root(raw)
+    except EnoughError:
+        raise
+    except Exception as error:
+        _tell_failure(walk.root, error, "", collector, options)
+        return None
     asset = Asset(
         root,
         walk,
@@ -110,7 +116,7 @@ def _follow(rules: Rules, asset: Asset) -> None:
             except EnoughError:
                 raise
             except Exception as error:
-                _tell_failure(rule, error, entry.pointer, asset)
+                _tell_failure(rule, error, entry.pointer, asset.collector, asset.options)
 
 
 def _run(stage: Callable[[Asset], Any], asset: Asset) -> Any:
@@ -119,14 +125,16 @@ def _run(stage: Callable[[Asset], Any], asset: Asset) -> Any:
     except EnoughError:
         raise
     except Exception as error:
-        _tell_failure(stage, error, "", asset)
+        _tell_failure(stage, error, "", asset.collector, asset.options)
         return None
 
 
-def _tell_failure(rule: Callable[..., Any], error: Exception, pointer: str, asset: Asset) -> None:
+def _tell_failure(
+    rule: Callable[..., Any], error: Exception, pointer: str, collector: Collector, options: Options
+) -> None:
     """Make a remark of a rule's own fault: one broken rule must not cost the verdict of all others."""
-    if asset.options.raises:
+    if options.raises:
         raise error
     name = getattr(rule, "__qualname__", type(rule).__name__)
     reason = f"{type(error).__name__}: {error}"[:_LONGEST_REASON]
-    asset.collector.add(issue("IRI_RULE_FAILED", pointer, rule=name, reason=reason))
+    collector.add(issue("IRI_RULE_FAILED", pointer, rule=name, reason=reason))

@@ -130,6 +130,16 @@ def test_a_rule_that_fails_is_told_and_the_rest_goes_on(failing_rule):
     assert "UNUSED_OBJECT" in {issue.code for issue in told}
 
 
+@pytest.mark.parametrize("stage", ["check_links", "check_usage", "check_resources", "asset_info"])
+def test_a_stage_that_fails_is_told_and_the_others_run(monkeypatch, stage):
+    def fails(_):
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(f"gltf_iri.validation.validate.{stage}", fails)
+    told = {(i.code, i.pointer) for i in validate(b'{"asset":{"version":"2.0"},"cameras":[{}]}').issues}
+    assert {("IRI_RULE_FAILED", ""), ("UNDEFINED_PROPERTY", "/cameras/0")} <= told
+
+
 def test_who_writes_a_rule_sees_it_fail(failing_rule):
     data = b'{"asset":{"version":"2.0"},"scenes":[{}]}'
     with pytest.raises(LookupError):
