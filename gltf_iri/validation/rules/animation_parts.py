@@ -1,4 +1,4 @@
-"""Channels and samplers of an animation, where both lists are whole."""
+"""Channels and samplers of an animation, where it has both."""
 
 from __future__ import annotations
 
@@ -8,6 +8,6 @@ __all__ = ["parts"]
 
 
 def parts(animation: Entry) -> tuple[list[Entry], list[Entry]]:
-    """Return channels and samplers; neither where an item is broken, for then the indices mean nothing."""
-    channels, samplers = animation.get("channels", [None]), animation.get("samplers", [None])
-    return ([], []) if None in channels or None in samplers else (channels, samplers)
+    """Return channels and samplers; neither where one list is broken, for then the indices mean nothing."""
+    channels, samplers = animation.get("channels"), animation.get("samplers")
+    return (channels, samplers) if channels and samplers else ([], [])

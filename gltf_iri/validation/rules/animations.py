@@ -67,7 +67,7 @@ def _target(target: Entry, node: Entry, path: str | None, asset: Asset) -> Itera
             yield issue("ANIMATION_CHANNEL_TARGET_NODE_MATRIX", target.pointer)
         if "skin" in node:
             yield issue("ANIMATION_CHANNEL_TARGET_NODE_SKIN", target.at("path"))
-    elif path == "weights" and not _count_of_targets(node, asset):
+    elif path == "weights" and not targets_of(node, asset):
         yield issue("ANIMATION_CHANNEL_TARGET_NODE_WEIGHTS_NO_MORPHS", target.pointer)
 
 
@@ -86,18 +86,10 @@ def _output(channel: Entry, sampler: Entry, node: Entry | None, path: str, asset
     if sampler.get("interpolation") == "CUBICSPLINE":
         wanted *= _ELEMENTS
     if path == "weights":
-        wanted *= _count_of_targets(node, asset) if node is not None else 0
+        wanted *= len(targets_of(node, asset)) if node is not None else 0
     if wanted and values["count"] != wanted:
         code = "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_COUNT"
         yield issue(code, pointer, wanted=wanted, count=values["count"])
-
-
-def _count_of_targets(node: Entry, asset: Asset) -> int:
-    """Return how many morph targets the node's mesh has; its primitives have all the same."""
-    mesh = asset.get("meshes", node.get("mesh"))
-    primitives: list[Entry | None] = mesh.get("primitives", [None]) if mesh is not None else [None]
-    first = None if None in primitives else primitives[0]
-    return 0 if first is None else len(targets_of(first))
 
 
 def _duplicates(channels: list[Entry]) -> Iterator[Issue]:

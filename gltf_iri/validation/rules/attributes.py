@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 from gltf_iri.asset.formats import SEMANTICS_WITH_SETS
+from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.entry import Entry
 
 __all__ = ["attribute_names", "count_of_sets", "is_attribute", "semantic_of", "targets_of"]
@@ -37,10 +38,12 @@ def attribute_names(primitive: Entry) -> Mapping[str, object]:
     return primitive.raw["attributes"] if "attributes" in primitive else {}
 
 
-def targets_of(primitive: Entry) -> list[dict[str, int]]:
-    """Return the morph targets; none where one of them is broken, for then nobody knows which is which."""
-    targets: list[dict[str, int]] = primitive.get("targets", [])
-    return [] if None in targets else targets
+def targets_of(node: Entry, asset: Asset) -> list[dict[str, int]]:
+    """Return the morph targets of a node's mesh: those of its first primitive, for all have as many."""
+    mesh = asset.get("meshes", node.get("mesh"))
+    primitives = mesh.get("primitives") if mesh is not None else None
+    targets: list[dict[str, int]] = primitives[0].get("targets", []) if primitives else []
+    return targets
 
 
 def _is_number(text: str) -> bool:

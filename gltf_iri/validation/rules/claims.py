@@ -14,7 +14,6 @@ from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.accessors import sparse_parts
 from gltf_iri.validation.rules.animation_parts import parts
-from gltf_iri.validation.rules.attributes import targets_of
 from gltf_iri.validation.rules.buffer_views import INDICES_TARGET, VERTICES_TARGET
 from gltf_iri.validation.rules.registry import Rules
 
@@ -80,8 +79,7 @@ def _claims(root: Entry, asset: Asset) -> Iterator[Issue]:
             yield from claims.view(view, _PICTURE, image, "bufferView")
     for mesh in asset.array("meshes"):
         for primitive in mesh.get("primitives", ()) if mesh is not None else ():
-            if primitive is not None:
-                yield from _of_primitive(primitive, claims)
+            yield from _of_primitive(primitive, claims)
     for skin in asset.array("skins"):
         if skin is not None:
             index = skin.get("inverseBindMatrices")
@@ -103,7 +101,7 @@ def _of_primitive(primitive: Entry, claims: _Claims) -> Iterator[Issue]:
     for name, index in primitive.get("attributes", {}).items():
         yield from claims.accessor(index, _VERTICES, primitive, "attributes", name)
     yield from claims.accessor(primitive.get("indices"), _INDICES, primitive, "indices")
-    for position, target in enumerate(targets_of(primitive)):
+    for position, target in enumerate(primitive.get("targets", ())):
         for name, index in target.items():
             yield from claims.accessor(index, _VERTICES, primitive, "targets", position, name)
 

@@ -9,21 +9,20 @@ from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
-from gltf_iri.validation.rules.attributes import attribute_names, count_of_sets, is_attribute, targets_of
+from gltf_iri.validation.rules.attributes import attribute_names, count_of_sets, is_attribute
 from gltf_iri.validation.rules.registry import Rules
 
 __all__ = ["RULES"]
 
 
 def _morph_targets(mesh: Entry, asset: Asset) -> Iterator[Issue]:
-    primitives = mesh.get("primitives", [None])
-    if None in primitives:
+    primitives = mesh.get("primitives")
+    if not primitives:
         return
-    count = len(targets_of(primitives[0]))
+    count = len(primitives[0].get("targets", ()))
     for primitive in primitives:
-        targets = targets_of(primitive)
-        if len(targets) != count:
-            pointer = primitive.at("targets") if targets else primitive.pointer
+        if len(primitive.get("targets", ())) != count:
+            pointer = primitive.at("targets") if "targets" in primitive else primitive.pointer
             yield issue("MESH_PRIMITIVES_UNEQUAL_TARGETS_COUNT", pointer)
     weights = mesh.get("weights")
     if weights is not None and len(weights) != count:

@@ -19,7 +19,7 @@ from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.accessor_bounds import has_bounds
 from gltf_iri.validation.rules.accessors import element_bytes, names_view
-from gltf_iri.validation.rules.attributes import semantic_of, targets_of
+from gltf_iri.validation.rules.attributes import semantic_of
 from gltf_iri.validation.rules.registry import Rules
 from gltf_iri.validation.tables import sound_value_of
 
@@ -83,7 +83,7 @@ def _targets(primitive: Entry, asset: Asset) -> Iterator[Issue]:
     is_quantized = "KHR_mesh_quantization" in asset.declared
     formats = QUANTIZED_TARGET_FORMATS if is_quantized else TARGET_FORMATS
     moved = primitive.get("attributes", {})
-    for position, target in enumerate(targets_of(primitive)):
+    for position, target in enumerate(primitive.get("targets", ())):
         for name, index in target.items():
             accessor, base = asset.get("accessors", index), asset.get("accessors", moved.get(name))
             if accessor is None:

@@ -42,8 +42,7 @@ def _surfaces(root: Entry, asset: Asset) -> Iterator[Issue]:
     known = [None if material is None else _Needs(material) for material in asset.array("materials")]
     for mesh in asset.array("meshes"):
         for primitive in mesh.get("primitives", ()) if mesh is not None else ():
-            if primitive is not None:
-                yield from _of_primitive(primitive, known)
+            yield from _of_primitive(primitive, known)
 
 
 def _of_primitive(primitive: Entry, known: list[_Needs | None]) -> Iterator[Issue]:
@@ -52,7 +51,7 @@ def _of_primitive(primitive: Entry, known: list[_Needs | None]) -> Iterator[Issu
     worn = [] if own is None else [(own, primitive.at("material"))]
     variants = primitive.extensions.get("KHR_materials_variants")
     for mapping in variants.get("mappings", ()) if variants is not None else ():
-        needs = known[mapping["material"]] if mapping is not None and "material" in mapping else None
+        needs = known[mapping["material"]] if "material" in mapping else None
         if needs is not None:
             worn.append((needs, mapping.at("material")))
     if own is not None and own.reads_tangents and not ("TANGENT" in names and "NORMAL" in names):
