@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 import sys
 
-from gltf_iri.cli.main import run
+from gltf_iri.cli.door import run
 
 __all__ = ["main"]
 

@@ -2,24 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import sys
-from collections.abc import Iterable, Iterator
-from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from gltf_iri.cli.common import note, print_json, print_table, progress
+from gltf_iri.cli.common import print_json, print_table
 from gltf_iri.errors import UsageError
-from gltf_iri.validation.find import find_files
-from gltf_iri.validation.formats.judged import Judged
 from gltf_iri.validation.issue import SEVERITY_NAMES
 from gltf_iri.validation.options import DEFAULT_MAX_ISSUES, Options
-
-if TYPE_CHECKING:
-    from gltf_iri.validation.results_file import ResultsFile
 
 __all__ = ["command"]
 
@@ -130,80 +120,20 @@ def command(
         resources=not no_resources,
         optics=optics,
     )
-    found = find_files(paths)
-    for passed_over in found.passed_over:
-        note(f"Passed over {passed_over}.")
-    # An object for people to read only where one file was asked for by its name: a folder means lines.
-    is_one = len(paths) == 1 and found.files == list(paths)
-    with ExitStack() as held:
-        files, keep, has_errors = found.files, None, False
-        if out or resume:
-            results = _results_file(out, resume)
-            held.enter_context(results)
-            files = [file for file in files if file not in results.done]
-            keep, has_errors = results.append, results.errors > 0
-            if results.done:
-                note(f"{len(results.done)} files were checked before, {results.errors} with errors.")
-        from gltf_iri.validation.run import ask_khronos, judge_files
+    from gltf_iri.cli.validate_files import validate_files
 
-        judged = judge_files(files, options, jobs=jobs, scheduler=scheduler, keep=keep)
-        if khronos:
-            from gltf_iri.validation.khronos import find_khronos
-
-            judged = ask_khronos(judged, find_khronos(), options)
-        watch = _Watch(judged)
-        is_quiet = keep is not None and form == "json"
-        # On a terminal the results themselves show how far it is; a bar below them would cost more than they.
-        if len(files) > 1 and (is_quiet or not sys.stdout.isatty()):
-            watch.advance = held.enter_context(progress("Checking", len(files)))
-        for piece in _written(form, watch, is_one=is_one):
-            if not is_quiet:
-                sys.stdout.write(piece)
-                sys.stdout.flush()
-    if has_errors or watch.has_errors:
+    has_errors = validate_files(
+        paths,
+        options,
+        form=form,
+        jobs=jobs,
+        scheduler=scheduler,
+        kept=resume or out,
+        is_resumed=resume is not None,
+        khronos=khronos,
+    )
+    if has_errors:
         raise click.exceptions.Exit(1)
-
-
-class _Watch:
-    """Lets files pass, and remembers whether one of them had errors."""
-
-    def __init__(self, files: Iterable[Judged]) -> None:
-        self._files = files
-        self.advance = _stand_still
-        self.has_errors = False
-
-    def __iter__(self) -> Iterator[Judged]:
-        for file in self._files:
-            self.has_errors = self.has_errors or file.has_errors
-            yield file
-            self.advance()
-
-
-def _stand_still() -> None:
-    """Show no progress."""
-
-
-def _written(form: str, files: Iterable[Judged], *, is_one: bool) -> Iterator[str]:
-    if form == "json":
-        from gltf_iri.validation.formats import json_lines
-
-        return json_lines.written(files, is_indented=is_one)
-    if form == "sarif":
-        from gltf_iri.validation.formats import sarif
-
-        return sarif.written(files)
-    if form == "csv":
-        from gltf_iri.validation.formats import csv_rows
-
-        return csv_rows.written(files)
-    if form == "github":
-        from gltf_iri.validation.formats import github
-
-        return github.written(files)
-    from gltf_iri.validation.formats import text
-
-    # no-color.org: whatever the variable holds.
-    return text.written(files, is_coloured=sys.stdout.isatty() and not os.environ.get("NO_COLOR"))
 
 
 def _options(
@@ -233,15 +163,6 @@ def _options(
         resources=resources,
         optics=optics,
     )
-
-
-def _results_file(out: Path | None, resume: Path | None) -> ResultsFile:
-    from gltf_iri.validation.results_file import ResultsFile
-
-    place = resume or out
-    if place is None:
-        raise UsageError("There is no file to keep reports in.")
-    return ResultsFile(place, is_resumed=resume is not None)
 
 
 def _print_codes(*, as_json: bool) -> None:

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 
+from gltf_iri.cli import door
 from gltf_iri.cli.main import run
 
 SOUND = {"asset": {"version": "2.0"}}
@@ -253,6 +254,39 @@ def test_khronos_without_the_package_ends_with_3(call, monkeypatch, tmp_path):
     assert "install it from nodejs.org" in err
 
 
+# --- with and without click
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["faulty.gltf"],
+        [".", "--json"],
+        ["--format", "json", "sound.gltf"],
+        ["sound.gltf", "--format", "text", "--json", "sub"],
+        ["--json", "sound.gltf", "--format", "text"],
+        ["faulty.gltf", "--format", "text", "--format", "json"],
+        ["faulty.gltf", "--format", "csv"],
+        ["faulty.gltf", "--format=github"],
+        ["faulty.gltf", "--format"],
+        ["faulty.gltf", "--format", "pdf"],
+        ["faulty.gltf", "--severity", "error"],
+        ["gone.gltf"],
+        ["--", "faulty.gltf"],
+        ["faulty.gltf", "--nonsense"],
+        ["--json"],
+        [],
+        ["--help"],
+    ],
+    ids=str,
+)
+def test_the_short_way_in_says_what_the_long_one_says(folder, capsys, arguments):
+    told = []
+    for way in (door.run, run):
+        told.append((way(["validate", *arguments]), capsys.readouterr()))
+    assert told[0] == told[1]
+
+
 # --- a process of its own
 
 
@@ -278,7 +312,7 @@ def test_one_file_loads_no_more_than_it_needs(folder):
     loaded = {line.split("|")[2].strip() for line in done.stderr.splitlines() if "|" in line}
     assert "gltf_iri.validation.formats.text" in loaded  # the listing was read
     heavy = {"numpy", "yaml", "rich", "jsonschema", "PIL", "csv", "urllib.request", "concurrent.futures"}
-    heavy |= {"multiprocessing", "subprocess", "dataclasses", "importlib.metadata"}
+    heavy |= {"click", "inspect", "multiprocessing", "subprocess", "dataclasses", "importlib.metadata"}
     ours = {f"gltf_iri.validation.{name}" for name in ("many", "khronos", "config", "formats.sarif")}
     assert loaded & (heavy | ours) == set()
 

@@ -73,7 +73,7 @@ OPENERS = {
     "validation/plugins.py",  # which installed packages bring rules
     "validation/tables.py",  # the program's own tables
     "validation/results_file.py",  # the results of a run that may be broken off and go on
-    "cli/main.py",  # the null device
+    "cli/ending.py",  # the null device
     "generate.py",  # the checkout that it runs in
 }
 
