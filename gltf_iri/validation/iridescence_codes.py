@@ -10,7 +10,9 @@ from __future__ import annotations
 
 from gltf_iri.validation.issue import ERROR, HINT, INFORMATION, WARNING
 
-__all__ = ["IRIDESCENCE_CODES", "IRIDESCENCE_REASONS"]
+__all__ = ["IRIDESCENCE_CODES", "IRIDESCENCE_REASONS", "NAME"]
+
+NAME = "KHR_materials_iridescence"
 
 _STATED: dict[str, tuple[int, str, str]] = {
     "IRI_IRIDESCENCE_EXCLUDED": (

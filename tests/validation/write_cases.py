@@ -1,4 +1,6 @@
-"""Writes what the validator says of every case beside it: ``python tests/validation/write_cases.py [FOLDER]``.
+"""Writes what the validator says of every case beside it: ``python tests/validation/write_cases.py``.
+
+With names of folders, of those alone.
 
 Read each difference before it is committed: the reports are what the validator is held to.
 

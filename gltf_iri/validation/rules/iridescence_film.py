@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from gltf_iri.validation.iridescence_codes import NAME
 from gltf_iri.validation.tables import TABLES, value_of
 
 if TYPE_CHECKING:
@@ -17,9 +18,8 @@ if TYPE_CHECKING:
 
     Colour = tuple[float, float, float]
 
-__all__ = ["NAME", "Base", "Film", "film_of", "index_of"]
+__all__ = ["Base", "Film", "film_of", "index_of"]
 
-NAME = "KHR_materials_iridescence"
 _PBR = "material.pbrMetallicRoughness"
 _IOR = "KHR_materials_ior"
 _SPECULAR = "KHR_materials_specular"
@@ -113,14 +113,15 @@ class Film:
         return self.ior - 1.0 < _SAME_INDEX and "iridescenceIor" not in self.moved
 
 
-def film_of(material: Entry, moved: Iterable[tuple[str, ...]], *, is_painted: bool) -> Film | None:
-    """Return the film of `material`, or None where it has none or its numbers are broken.
+def film_of(
+    extension: Entry, material: Entry, moved: Iterable[tuple[str, ...]], *, is_painted: bool
+) -> Film | None:
+    """Return the film that `extension` puts on `material`, or None where its numbers are broken.
 
     moved : paths below the material that animations change.
     is_painted : vertices that bring colours of their own show this material.
     """
-    extension = material.extensions.get(NAME)
-    if extension is None or any(key in extension.raw and key not in extension for key in _NUMBERS):
+    if any(key in extension.raw and key not in extension for key in _NUMBERS):
         return None
     own = {path[-1] for path in moved if path[:2] == ("extensions", NAME)}
     is_still = not any(_OF_THE_BASE.intersection(path) for path in moved)
