@@ -17,7 +17,7 @@ from gltf_iri.validation.options import Options
 SECRET = b"\x01\x02\x03\x04\x05\x06\x07\x08"
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def installed() -> KhronosValidator:
     try:
         return find_khronos()
