@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from gltf_iri.asset.formats import ATTRIBUTE_FORMATS, TYPE_SHAPE
 from gltf_iri.errors import AssetError
 from gltf_iri.material.material import DEFAULT_MATERIAL
 from gltf_iri.scene.model import Primitive
@@ -28,17 +29,13 @@ UInt32 = NDArray[np.uint32]
 Attributes = dict[str, Float32]
 
 # What a primitive may carry that this program reads, and how many components each has.
-_COMPONENTS: dict[str, tuple[int, ...]] = {
-    "POSITION": (3,),
-    "NORMAL": (3,),
-    "TANGENT": (4,),
-    "TEXCOORD_0": (2,),
-    "TEXCOORD_1": (2,),
-    "COLOR_0": (3, 4),
-    "JOINTS_0": (4,),
-    "WEIGHTS_0": (4,),
-    "JOINTS_1": (4,),
-    "WEIGHTS_1": (4,),
+_READ = (
+    *("POSITION", "NORMAL", "TANGENT", "TEXCOORD_0", "TEXCOORD_1", "COLOR_0"),
+    *("JOINTS_0", "WEIGHTS_0", "JOINTS_1", "WEIGHTS_1"),
+)
+_COMPONENTS: dict[str, set[int]] = {
+    name: {TYPE_SHAPE[stated.partition(" ")[0]][1] for stated in ATTRIBUTE_FORMATS[name.partition("_")[0]]}
+    for name in _READ
 }
 
 

@@ -79,11 +79,11 @@ def _output(channel: Entry, sampler: Entry, node: Entry | None, path: str, asset
     if given not in OUTPUT_FORMATS[path]:
         code, allowed = "ANIMATION_SAMPLER_OUTPUT_ACCESSOR_INVALID_FORMAT", ", ".join(OUTPUT_FORMATS[path])
         yield issue(code, pointer, path=path, format=given, allowed=allowed)
-    times = asset.get("accessors", sampler.get("input"))
-    if times is None or "count" not in times or "count" not in values:
+    times, interpolation = asset.get("accessors", sampler.get("input")), sampler.raw.get("interpolation", "")
+    if times is None or "count" not in times or "count" not in values or not isinstance(interpolation, str):
         return
     wanted = times["count"]
-    if sampler.get("interpolation") == "CUBICSPLINE":
+    if interpolation == "CUBICSPLINE":
         wanted *= _ELEMENTS
     if path == "weights":
         wanted *= len(targets_of(node, asset)) if node is not None else 0
