@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from gltf_iri.validation.codes import CODES
 from gltf_iri.validation.codes_of_links import CODES_OF_LINKS
 from gltf_iri.validation.codes_of_objects import CODES_OF_OBJECTS
+from gltf_iri.validation.iridescence_codes import IRIDESCENCE_REASONS
 from gltf_iri.validation.issue import SEVERITY_NAMES
 
 __all__ = ["OWN", "as_text", "codes_markdown", "every_code", "rows"]
@@ -53,6 +54,14 @@ def codes_markdown() -> str:
             "",
             *_table(code for code in CODES if code.startswith(OWN)),
             "",
+            "## What remarks on films rest on",
+            "",
+            "Sections are those of the README of KHR\\_materials\\_iridescence, if no other is named. Renderers "
+            "are three.js 0.187, Babylon.js 9.34, the Khronos sample renderer 1.1.0 and PlayCanvas 2.23, by "
+            "their sources.",
+            "",
+            *(f"- `{code}`: {_escaped(reason)}" for code, reason in sorted(IRIDESCENCE_REASONS.items())),
+            "",
             "## The Khronos validator's",
             "",
             "The names and severities of KhronosGroup/glTF-Validator, ISSUES.md (2.0.0-dev.3.11); "
@@ -74,6 +83,9 @@ def _table(codes: Iterable[str]) -> Iterator[str]:
     yield "| code | severity | what it says |"
     yield "|---|---|---|"
     for code, severity, sentence in rows(codes):
-        # Bars would end the cell, and brackets, stars and the like are Markdown.
-        told = re.sub(r"([|\[\]*_<`\\])", r"\\\1", sentence)
-        yield f"| `{code}` | {severity} | {told} |"
+        yield f"| `{code}` | {severity} | {_escaped(sentence)} |"
+
+
+def _escaped(sentence: str) -> str:
+    # Bars would end a cell, and brackets, stars and the like are Markdown.
+    return re.sub(r"([|\[\]*_<`\\])", r"\\\1", sentence)

@@ -18,7 +18,7 @@ _STATED: dict[str, tuple[int, str, str]] = {
     "IRI_IRIDESCENCE_EXCLUDED": (
         ERROR,
         "{other} must not stand on a material with KHR_materials_iridescence.",
-        'Exclusions: "must not be used on a material that also uses" unlit or pbrSpecularGlossiness.',
+        "Exclusions: it must not share a material with either, unlit or pbrSpecularGlossiness.",
     ),
     "IRI_IRIDESCENCE_UNUSED": (
         INFORMATION,
@@ -97,7 +97,8 @@ _STATED: dict[str, tuple[int, str, str]] = {
         INFORMATION,
         "The base, {lobe}, reflects all of {channels}: the extension's formula is undefined there.",
         "Material Interfaces: baseF0 + 0.0001 divides by zero at 0.9999 and makes the base's index negative "
-        "above. PlayCanvas does so; three.js, Babylon.js and the Khronos sample renderer cut F0 to 0.9999.",
+        "above, which turns the phase; red's is that of X, so that all channels change (gold by ΔE 6). "
+        "PlayCanvas does so; three.js, Babylon.js and the Khronos sample renderer cut F0 to 0.9999.",
     ),
     "IRI_IRIDESCENCE_INDEX_ORDER": (
         HINT,
