@@ -13,7 +13,7 @@ from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import join
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
     from typing import Any
 
     from gltf_iri.validation.issue import Issue
@@ -123,22 +123,22 @@ def _may_be_deep(data: bytes) -> bool:
 
 
 def _oddities(tree: dict[str, Any], hooks: Hooks) -> Iterator[Issue]:
-    """Tell of keys that stand twice and of lone surrogates, in the order of the file."""
+    """Tell of keys that stand twice and of lone surrogates."""
     waiting: list[tuple[Any, _Way]] = [(tree, None)]
     while waiting:
-        value, way = waiting.pop()
-        if isinstance(value, dict):
-            twice = hooks.repeated(value)
-            if twice is not None:
-                yield issue("IRI_DUPLICATE_KEY", _pointer((way, twice)))
-            for key in value:
-                if _has_lone_surrogate(key):
-                    yield issue("IRI_LONE_SURROGATE", _pointer((way, key)))
-            waiting.extend((child, (way, key)) for key, child in reversed(value.items()))
-        elif isinstance(value, list):
-            waiting.extend((value[i], (way, i)) for i in range(len(value) - 1, -1, -1))
-        elif isinstance(value, str) and _has_lone_surrogate(value):
-            yield issue("IRI_LONE_SURROGATE", _pointer(way))
+        holder, way = waiting.pop()
+        is_object = isinstance(holder, dict)
+        twice = hooks.repeated(holder) if is_object else None
+        if twice is not None:
+            yield issue("IRI_DUPLICATE_KEY", _pointer((way, twice)))
+        items: Iterable[tuple[Any, Any]] = holder.items() if is_object else enumerate(holder)
+        for key, value in items:
+            if is_object and _has_lone_surrogate(key):
+                yield issue("IRI_LONE_SURROGATE", _pointer((way, key)))
+            if isinstance(value, (dict, list)):
+                waiting.append((value, (way, key)))
+            elif isinstance(value, str) and _has_lone_surrogate(value):
+                yield issue("IRI_LONE_SURROGATE", _pointer((way, key)))
 
 
 def _has_lone_surrogate(text: str) -> bool:
