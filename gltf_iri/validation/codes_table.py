@@ -56,9 +56,9 @@ def codes_markdown() -> str:
             "",
             "## What remarks on films rest on",
             "",
-            "Sections are those of the README of KHR\\_materials\\_iridescence, if no other is named. Renderers "
-            "are three.js 0.187, Babylon.js 9.34, the Khronos sample renderer 1.1.0 and PlayCanvas 2.23, by "
-            "their sources.",
+            "Sections are those of the README of KHR\\_materials\\_iridescence, if no other is named. "
+            "Renderers are three.js 0.187, Babylon.js 9.34, the Khronos sample renderer 1.1.0 and PlayCanvas "
+            "2.23, by their sources.",
             "",
             *(f"- `{code}`: {_escaped(reason)}" for code, reason in sorted(IRIDESCENCE_REASONS.items())),
             "",
