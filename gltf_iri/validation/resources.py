@@ -9,10 +9,12 @@ from gltf_iri.asset.limits import MAX_ASSET_BYTES, MAX_FILE_BYTES, MAX_IMAGE_FIL
 from gltf_iri.errors import AssetError
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
+from gltf_iri.validation.tables import sound_value_of
 from gltf_iri.validation.uris import DataUri, Link
 
 if TYPE_CHECKING:
     from gltf_iri.validation.asset import Asset
+    from gltf_iri.validation.data.elements import Elements
     from gltf_iri.validation.issue import Issue
 
 __all__ = ["Resources", "check_resources"]
@@ -28,6 +30,8 @@ class Resources:
     """The bytes beside the JSON of one asset; `check_resources` reads them.
 
     told : what `info` says of each buffer and picture, in the order of the file.
+    elements : the accessors that were asked for, as `data.access` reads them.
+    found : what rules about the data found in an accessor, by a name of theirs, so as not to look again.
     """
 
     def __init__(self, asset: Asset) -> None:
@@ -37,6 +41,8 @@ class Resources:
         self._files: dict[str, bytes | str] = {}
         self._room = MAX_ASSET_BYTES
         self.told: list[dict[str, Any]] = []
+        self.elements: dict[Entry, Elements | None] = {}
+        self.found: dict[tuple[str, object], Any] = {}
 
     def keep(self, entry: Entry, uri: DataUri | Link | None) -> None:
         """Remember what the URI of a buffer or picture is; None where it was told of and is not used."""
@@ -55,11 +61,10 @@ class Resources:
     def view(self, index: int | None) -> memoryview | None:
         """Return the bytes of a buffer view; None where they are not all there."""
         entry = self._asset.get("bufferViews", index)
-        if entry is None or "byteLength" not in entry:
+        start: int | None = None if entry is None else sound_value_of(entry, "byteOffset")
+        if entry is None or start is None or "byteLength" not in entry:
             return None
-        data = self.buffer(entry.get("buffer"))
-        start: int = entry.get("byteOffset", 0)
-        end = start + entry["byteLength"]
+        data, end = self.buffer(entry.get("buffer")), start + entry["byteLength"]
         return data[start:end] if data is not None and end <= len(data) else None
 
     def image(self, index: int | None) -> bytes | memoryview | None:

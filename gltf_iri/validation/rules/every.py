@@ -11,6 +11,7 @@ from gltf_iri.validation.rules import (
     buffer_views,
     cameras,
     claims,
+    elements,
     extension_lists,
     inverse_bind_matrices,
     iridescence,
@@ -59,6 +60,7 @@ _MODULES = (
     pointer_values,
     iridescence,
     bragg,
+    elements,
 )
 
 

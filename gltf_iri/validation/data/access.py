@@ -1,0 +1,120 @@
+"""From an accessor to its elements, where everything that says where they lie is sound."""
+
+from __future__ import annotations
+
+from operator import lt
+from typing import TYPE_CHECKING, Any
+
+from gltf_iri.asset.limits import MAX_BUFFERLESS_COUNT
+from gltf_iri.validation.data.elements import Elements, cast
+from gltf_iri.validation.tables import sound_value_of
+
+if TYPE_CHECKING:
+    from gltf_iri.validation.asset import Asset
+    from gltf_iri.validation.entry import Entry
+
+__all__ = ["elements_of", "increasing", "sparse_indices"]
+
+# Elements at a time where sparse indices are compared with their neighbours.
+_STEP = 1 << 16
+
+
+def elements_of(accessor: Entry | None, asset: Asset) -> Elements | None:
+    """Return the accessor's elements; None where they cannot be read, of which its rules told.
+
+    An accessor without buffer view and sparse elements has none that a file holds, and those that would go
+    round and round in a few bytes are not read either.
+    """
+    if accessor is None:
+        return None
+    known = asset.resources.elements
+    if accessor not in known:
+        known[accessor] = _read(accessor, asset)
+    return known[accessor]
+
+
+def _read(accessor: Entry, asset: Asset) -> Elements | None:
+    if not {"type", "componentType", "count"} <= accessor.keys():
+        return None
+    elements = Elements(
+        accessor["type"],
+        accessor["componentType"],
+        accessor["count"],
+        is_normalized=accessor.get("normalized", False),
+    )
+    sparse = accessor.get("sparse")
+    if sparse is not None and not {"count", "indices", "values"} <= sparse.keys():
+        sparse = None  # its schema told; the elements below are there all the same
+    if "bufferView" in accessor.raw:
+        elements.base = _bytes_of(accessor, asset, elements)
+        if elements.base is None:
+            return None
+    elif sparse is None or elements.count > MAX_BUFFERLESS_COUNT:
+        return None
+    if sparse is not None:
+        if sparse["count"] > elements.count:
+            return None
+        indices = sparse_indices(accessor, asset)
+        values = _packed(sparse["values"], sparse["count"], elements, asset)
+        if indices is None or values is None:
+            return None
+        elements.replace(indices, increasing(indices, elements.count), values)
+    return elements
+
+
+def sparse_indices(accessor: Entry, asset: Asset) -> Any:
+    """Return the numbers of the elements that an accessor's sparse part replaces; None where unreadable."""
+    sparse = accessor.get("sparse")
+    if sparse is None or not {"count", "indices", "values"} <= sparse.keys():
+        return None
+    if "componentType" not in sparse["indices"]:
+        return None
+    shape = Elements("SCALAR", sparse["indices"]["componentType"], sparse["count"])
+    return _packed(sparse["indices"], sparse["count"], shape, asset)
+
+
+def increasing(indices: Any, count: int) -> int:
+    """Return how many indices from the first on increase and are below `count`: all, in a sound file."""
+    previous = -1
+    for start in range(0, len(indices), _STEP):
+        block = indices[start : start + _STEP].tolist()
+        if block[0] <= previous or block[-1] >= count or not all(map(lt, block, block[1:])):
+            for position, index in enumerate(block, start):
+                if index <= previous or index >= count:
+                    return position
+                previous = index
+        previous = block[-1]
+    return len(indices)
+
+
+def _packed(part: Entry, count: int, shape: Elements, asset: Asset) -> Any:
+    """Return `count` elements of a sparse part, packed; None where they are not all there."""
+    length = (count - 1) * shape.packed * shape.size + shape.used
+    data = _place(part, asset, shape.size, length)
+    return None if data is None else cast(data, shape.component)
+
+
+def _bytes_of(accessor: Entry, asset: Asset, elements: Elements) -> memoryview | None:
+    view = asset.get("bufferViews", accessor.get("bufferView"))
+    if view is None:
+        return None
+    stride = view.get("byteStride", elements.stride)
+    if stride < elements.used or stride % elements.size:
+        return None
+    elements.stride = stride
+    return _place(accessor, asset, elements.size, (elements.count - 1) * stride + elements.used)
+
+
+def _place(reader: Entry, asset: Asset, size: int, length: int) -> memoryview | None:
+    """Return `length` bytes from where `reader` starts in its buffer view, aligned to `size`."""
+    view = asset.get("bufferViews", reader.get("bufferView"))
+    start = sound_value_of(reader, "byteOffset")
+    if view is None or start is None:
+        return None
+    view_start, available = sound_value_of(view, "byteOffset"), view.get("byteLength", 0)
+    if view_start is None or start % size or (start + view_start) % size or start + length > available:
+        return None
+    # Not the view's own bytes: a view that is too long may still hold these elements.
+    data = asset.resources.buffer(view.get("buffer"))
+    begin = view_start + start
+    return data[begin : begin + length] if data is not None and begin + length <= len(data) else None

@@ -1,0 +1,123 @@
+"""Every accessor: numbers that are none, sparse indices out of order, and what min and max say."""
+
+from __future__ import annotations
+
+from array import array
+from typing import TYPE_CHECKING, Any
+
+from gltf_iri.asset.formats import FLOAT
+from gltf_iri.validation.codes import issue
+from gltf_iri.validation.data.access import elements_of, increasing, sparse_indices
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from gltf_iri.validation.asset import Asset
+    from gltf_iri.validation.data.elements import Elements
+    from gltf_iri.validation.entry import Entry
+    from gltf_iri.validation.issue import Issue
+
+__all__ = ["accessors_hold_what_they_say", "sparse_indices_increase"]
+
+# The highest byte of a float32 that is infinite, no number, or at least 2^127: sign, and seven bits of
+# exponent (IEEE 754). Searching for it costs a thousandth of looking at numbers.
+_SUSPECT_BYTES = (b"\x7f", b"\xff")
+
+
+def sparse_indices_increase(accessor: Entry, asset: Asset) -> Iterator[Issue]:
+    """Tell of sparse indices that do not increase, or are beyond the accessor."""
+    count, indices = accessor.get("count"), sparse_indices(accessor, asset)
+    if count is None or indices is None or increasing(indices, count) == len(indices):
+        return
+    pointer, previous = accessor.at("sparse"), -1
+    for position, index in enumerate(indices):
+        if index <= previous:
+            yield issue(
+                "ACCESSOR_SPARSE_INDICES_NON_INCREASING",
+                pointer,
+                index=position,
+                value=index,
+                previous=previous,
+            )
+        if index >= count:
+            yield issue("ACCESSOR_SPARSE_INDEX_OOB", pointer, index=position, value=index, count=count)
+        previous = index
+
+
+def accessors_hold_what_they_say(accessor: Entry, asset: Asset) -> Iterator[Issue]:
+    """Tell of floats that are none, and of a min or max that is not the data's."""
+    elements = elements_of(accessor, asset)
+    if elements is None:
+        return
+    has_bounds = "min" in accessor or "max" in accessor
+    if elements.component != FLOAT and not has_bounds:
+        return
+    low: list[Any] = []
+    high: list[Any] = []
+    for first in elements.starts():
+        is_suspect = elements.component == FLOAT and _is_suspect(elements, first)
+        if not is_suspect and not has_bounds:
+            continue
+        columns = elements.columns(first)
+        if is_suspect:
+            yield from _invalid_floats(accessor, columns, first)
+        if has_bounds:
+            _widen(low, high, columns, is_suspect=is_suspect)
+    if has_bounds:
+        yield from _compare(accessor, elements, low, high)
+
+
+def _is_suspect(elements: Elements, first: int) -> bool:
+    """Whether the block may hold an infinity or NaN."""
+    raw = elements.raw(first)
+    if raw is None:
+        return True
+    data = bytes(raw)
+    if elements.stride == elements.width * elements.size:
+        tops = [data[3::4]]
+    else:
+        tops = [data[4 * place + 3 :: elements.stride] for place in elements.places]
+    return any(byte in top for byte in _SUSPECT_BYTES for top in tops)
+
+
+def _invalid_floats(accessor: Entry, columns: list[list[float]], first: int) -> Iterator[Issue]:
+    width = len(columns)
+    for element, values in enumerate(zip(*columns, strict=True), first):
+        for place, value in enumerate(values):
+            if value - value != 0.0:  # of an infinity or NaN, the difference is NaN
+                index = element * width + place
+                yield issue("ACCESSOR_INVALID_FLOAT", accessor.pointer, index=index, value=value)
+
+
+def _widen(low: list[Any], high: list[Any], columns: list[list[Any]], *, is_suspect: bool) -> None:
+    """Let `low` and `high` take in a block; a NaN counts where it is the first value of all, else not."""
+    if not low:
+        low.extend(column[0] for column in columns)
+        high.extend(low)
+    for place, column in enumerate(columns):
+        if is_suspect:
+            column = [value for value in column if value == value]  # NaN is not itself
+        if column and low[place] == low[place]:
+            low[place] = min(low[place], min(column))
+            high[place] = max(high[place], max(column))
+
+
+def _compare(accessor: Entry, elements: Elements, low: list[Any], high: list[Any]) -> Iterator[Issue]:
+    for key, code, actual in (("min", "MIN", low), ("max", "MAX", high)):
+        for place, stated in enumerate(accessor.get(key, ())):
+            # Bounds of floats are rounded to float32, which the data is (§3.6.2.5).
+            declared = array("f", (stated,))[0] if elements.component == FLOAT else stated
+            if actual[place] == declared:
+                continue
+            pointer = accessor.at(key, place)
+            yield issue(f"ACCESSOR_{code}_MISMATCH", pointer, declared=declared, actual=actual[place])
+            if actual[place] < declared if key == "min" else actual[place] > declared:
+                count = _count_beyond(elements, place, declared, is_below=key == "min")
+                yield issue(f"ACCESSOR_ELEMENT_OUT_OF_{code}_BOUND", pointer, count=count, bound=declared)
+
+
+def _count_beyond(elements: Elements, place: int, bound: float, *, is_below: bool) -> int:
+    columns = (elements.columns(first)[place] for first in elements.starts())
+    if is_below:
+        return sum(value < bound for column in columns for value in column)
+    return sum(value > bound for column in columns for value in column)
