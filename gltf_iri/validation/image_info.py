@@ -9,6 +9,9 @@ __all__ = ["ImageDataError", "ImageEndError", "ImageInfo", "Segments"]
 # Real pictures have some dozens of segments before their pixels; this many are read within half a second.
 _MOST_SEGMENTS = 500_000
 
+# So many bytes between two segments take as long as one segment.
+_FILL_BYTES = 256
+
 
 class ImageDataError(ValueError):
     """The header is broken; the message says what of it."""
@@ -34,6 +37,10 @@ class Segments:
         self._left -= 1
         if self._left < 0:
             raise ImageDataError(f"more than {_MOST_SEGMENTS} segments stand before the pixels")
+
+    def count_fill(self, length: int) -> None:
+        """Count bytes that belong to no segment."""
+        self._left -= length // _FILL_BYTES
 
 
 class ImageInfo:

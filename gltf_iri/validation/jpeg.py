@@ -29,7 +29,9 @@ def read_jpeg(data: bytes | memoryview, segments: Segments) -> ImageInfo:
     while True:
         segments.count()
         found = _BEFORE_SEGMENT.match(data, position)
-        position = found.end() if found else position
+        start = found.end() if found else position
+        segments.count_fill(start - position)
+        position = start
         if position + 1 + _LENGTH_BYTES > end:
             raise ImageEndError
         marker, length = unpack_from(">BH", data, position)
@@ -37,12 +39,12 @@ def read_jpeg(data: bytes | memoryview, segments: Segments) -> ImageInfo:
             raise ImageDataError(
                 f"the length of a segment is {length}, less than its own {_LENGTH_BYTES} bytes"
             )
-        start = position + 1 + _LENGTH_BYTES
+        data_at = position + 1 + _LENGTH_BYTES
         position += 1 + length
         if position > end:
             raise ImageEndError
         if marker in _FRAME_MARKERS:
-            return _frame(data[start:position])
+            return _frame(data[data_at:position])
 
 
 def _frame(header: bytes | memoryview) -> ImageInfo:

@@ -19,7 +19,7 @@ _EXTENSION = "KHR_lights_punctual"
 def light_states_what_its_type_reads(entry: Entry, asset: Asset) -> Iterator[Issue]:
     """A spot light has a cone and no other light has; parallel light has no range."""
     if entry.get("type") == "spot":
-        if "spot" not in entry.raw:
+        if entry.raw.get("spot") is None:
             yield issue("UNDEFINED_PROPERTY", entry.pointer, property="spot")
     elif "spot" in entry.raw:
         yield issue("EXTRA_PROPERTY", entry.at("spot"))

@@ -28,7 +28,8 @@ def strength_multiplies_some_emission(entry: Entry, asset: Asset) -> Iterator[Is
     material = entry.parent
     if material is None or value_of(entry, "emissiveStrength") == 1.0:
         return
-    if "emissiveFactor" not in material.raw or not any(material.get("emissiveFactor", (1.0,))):
+    factor = sound_value_of(material, "emissiveFactor")
+    if factor is not None and not any(factor):
         yield issue("KHR_MATERIALS_EMISSIVE_STRENGTH_ZERO_FACTOR", entry.pointer)
 
 
@@ -69,14 +70,15 @@ def clearcoat_normals_share_the_uv_set(entry: Entry, asset: Asset) -> Iterator[I
 def thickness_range_and_texture_need_each_other(entry: Entry, asset: Asset) -> Iterator[Issue]:
     """A thickness texture chooses between a minimum and a maximum; alone, the maximum counts."""
     minimum, maximum = (f"iridescenceThickness{end}" for end in ("Minimum", "Maximum"))
-    if "iridescenceThicknessTexture" not in entry:
-        if minimum in entry:
-            yield issue("KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_WITHOUT_TEXTURE", entry.at(minimum))
-        return
     least = sound_value_of(entry, minimum)
-    if least is not None and least == sound_value_of(entry, maximum):
-        pointer = entry.at("iridescenceThicknessTexture")
-        yield issue("KHR_MATERIALS_IRIDESCENCE_THICKNESS_TEXTURE_UNUSED", pointer)
+    if least is None:
+        return
+    if "iridescenceThicknessTexture" in entry:
+        if least == sound_value_of(entry, maximum):
+            pointer = entry.at("iridescenceThicknessTexture")
+            yield issue("KHR_MATERIALS_IRIDESCENCE_THICKNESS_TEXTURE_UNUSED", pointer)
+    elif minimum in entry.raw:
+        yield issue("KHR_MATERIALS_IRIDESCENCE_THICKNESS_RANGE_WITHOUT_TEXTURE", entry.at(minimum))
 
 
 def _extension_names(material: Entry | None) -> frozenset[str]:
@@ -94,9 +96,9 @@ def _uv_set(texture: Entry) -> int | None:
     """Return the UV set that a texture reads, None where it is broken; a transform may name another."""
     transform = texture.extensions.get("KHR_texture_transform")
     if transform is not None and "texCoord" in transform:
-        number: int = transform["texCoord"]
-        return number
-    return texture.get("texCoord", None if "texCoord" in texture.raw else 0)
+        texture = transform
+    number: int | None = sound_value_of(texture, "texCoord")
+    return number
 
 
 RULES: Rules = {
