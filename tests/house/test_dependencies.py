@@ -40,13 +40,13 @@ def undeclared(folder: str, requirements: list[str]) -> list[str]:
 
 def test_the_package_imports_only_what_it_declares() -> None:
     extras = PROJECT["optional-dependencies"]
-    extra = extras["reference"] + extras["fast"] + extras["peers"]
+    extra = extras["reference"] + extras["fast"] + extras["peers"] + extras["cluster"]
     assert undeclared("gltf_iri", PROJECT["dependencies"] + extra) == []
 
 
 def test_the_tests_import_only_what_is_declared() -> None:
     extras = PROJECT["optional-dependencies"]
-    extra = extras["test"] + extras["mitsuba"]
+    extra = extras["test"] + extras["mitsuba"] + extras["fuzz"]
     modules = (ROOT / "tests").rglob("*.py")
     helpers = {path.parent.name if path.name == "__init__.py" else path.stem for path in modules}
     missing = undeclared("tests", PROJECT["dependencies"] + extra)
