@@ -94,10 +94,8 @@ def _index(walk: Walk, value: Any, pointer: str, key: str | int) -> int | None:
 
 def _numbers(walk: Walk, field: Field, values: list[Any], pointer: str, entry: Entry) -> Any:
     numbers = [_item(walk, field, value, pointer) for value in values]
-    if BROKEN in numbers:
-        return BROKEN
     for position, number in enumerate(numbers):
-        wrong = complaint(field, number)
+        wrong = complaint(field, number) if number is not BROKEN else None
         if wrong is not None:
             numbers[position] = walk.wrong(wrong, f"{pointer}/{position}")
     return BROKEN if BROKEN in numbers else numbers

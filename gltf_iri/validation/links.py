@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.tables import TABLES
+from gltf_iri.validation.values import is_unlisted
 
 if TYPE_CHECKING:
     from typing import Any
@@ -16,9 +17,9 @@ if TYPE_CHECKING:
 
 __all__ = ["check_links", "is_whole"]
 
-# Keyframes without channels play nothing, and sparse values without indices replace nothing: what they refer
-# to is not used by them.
-_ALL_OR_NOTHING = frozenset({"accessor.sparse", "animation"})
+# Keyframes without channels play nothing, and sparse values without indices or without elements to replace
+# replace nothing: what they refer to is not used by them.
+_ALL_OR_NOTHING = frozenset({"accessor", "accessor.sparse", "animation"})
 
 
 def check_links(asset: Asset) -> None:
@@ -51,7 +52,8 @@ def _has_no_list(asset: Asset, entry: Entry) -> bool:
 
 def is_whole(entry: Entry) -> bool:
     """Tell whether all properties are there that the object must have."""
-    return all(key in entry for key in TABLES[entry.table].required)
+    table = TABLES[entry.table]
+    return all(key in entry or is_unlisted(table.fields[key], entry.raw.get(key)) for key in table.required)
 
 
 def _is_dead(entry: Entry) -> bool:

@@ -10,7 +10,7 @@ from gltf_iri.asset.words import shown
 if TYPE_CHECKING:
     from gltf_iri.validation.tables import Field
 
-__all__ = ["BROKEN", "WANTED", "complaint", "typed"]
+__all__ = ["BROKEN", "WANTED", "complaint", "is_unlisted", "typed"]
 
 # Stands for a value that was told of already.
 BROKEN: Any = object()
@@ -58,6 +58,11 @@ def complaint(field: Field, value: Any) -> tuple[str, dict[str, Any]] | None:
     if kind == "FLAG" or _is_in_range(field, value):
         return None
     return "VALUE_NOT_IN_RANGE", {"value": shown(value), "range": _interval(field)}
+
+
+def is_unlisted(field: Field, value: Any) -> bool:
+    """Tell whether a text that was told of is only none of those known: it is there, whatever it means."""
+    return field.kind == "TEXT" and bool(field.choices) and isinstance(value, str)
 
 
 def _is_in_range(field: Field, value: float) -> bool:

@@ -11,8 +11,8 @@ from gltf_iri.asset.words import shown
 from gltf_iri.validation.arrays import ARRAYS
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry, join
-from gltf_iri.validation.tables import EXTENSIONS, TABLES, Field, Table
-from gltf_iri.validation.values import BROKEN, WANTED, complaint, typed
+from gltf_iri.validation.tables import EXTENSIONS, TABLES, Field
+from gltf_iri.validation.values import BROKEN, WANTED, complaint, is_unlisted, typed
 from gltf_iri.validation.version import KNOWN, version_key
 
 if TYPE_CHECKING:
@@ -71,7 +71,7 @@ class Walk:
         fields = table.fields
         entry = Entry(table_name, pointer, raw, parent)
         # Of the parts that a "type" chooses from, the others are not looked at.
-        unread = [part for part in table.parts if part != raw["type"]] if "type" in raw else ()
+        unread = [part for part in table.parts if part != raw.get("type")]
         for key, value in raw.items():
             field = fields.get(key)
             if field is not None:
@@ -103,17 +103,12 @@ class Walk:
             if raw.get(key) is None:
                 self.tell(issue("UNDEFINED_PROPERTY", entry.pointer or "/", property=key))
         for key, needs in table.needing:
-            if key in entry and needs not in entry and not self._is_unlisted(table, raw, needs):
+            if key in entry and needs not in entry and not is_unlisted(table.fields[needs], raw.get(needs)):
                 self.tell(issue("UNSATISFIED_DEPENDENCY", entry.at(key), property=needs))
         if table.one_of and sum(key in entry for key in table.one_of) != 1:
             self.tell(issue("ONE_OF_MISMATCH", entry.pointer, properties=" and ".join(table.one_of)))
         if len(table.parts) > 1:
             self._parts(entry, sorted(table.parts & raw.keys()))
-
-    def _is_unlisted(self, table: Table, raw: dict[str, Any], key: str) -> bool:
-        """Whether a property is there, with a value of its type that is not in the list of those known."""
-        field = table.fields[key]
-        return bool(field.choices) and typed(field.kind, raw.get(key)) is not BROKEN
 
     def _parts(self, entry: Entry, given: list[str]) -> None:
         """Tell of an object whose "type" names a part that is missing, or that has two parts."""

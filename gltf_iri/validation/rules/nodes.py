@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gltf_iri.validation.codes import issue
+from gltf_iri.validation.tables import EXTENSIONS
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -26,9 +27,16 @@ def nodes_serve_a_purpose(root: Entry, asset: Asset) -> Iterator[Issue]:
     for index, node in enumerate(asset.array("nodes")):
         if node is None or index in joints or any(key in node for key in _PURPOSES):
             continue
-        extensions = node.raw.get("extensions")
-        if not (isinstance(extensions, dict) and extensions) and node.raw.get("extras") is None:
+        if node.raw.get("extras") is None and not _has_extension(node, asset):
             yield issue("NODE_EMPTY", node.pointer)
+
+
+def _has_extension(node: Entry, asset: Asset) -> bool:
+    """Tell whether the node carries an extension; one that is known not to belong on nodes is none."""
+    stated = node.raw.get("extensions")
+    return isinstance(stated, dict) and any(
+        name in node.extensions or name not in EXTENSIONS or name not in asset.declared for name in stated
+    )
 
 
 def nodes_form_trees(root: Entry, asset: Asset) -> Iterator[Issue]:

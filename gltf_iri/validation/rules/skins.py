@@ -20,14 +20,15 @@ __all__ = ["RULES", "joints_of"]
 def joints_hang_together(root: Entry, asset: Asset) -> Iterator[Issue]:
     """All joints of a skin have an ancestor in common, and its skeleton is one."""
     for skin in asset.array("skins"):
-        if skin is None or "joints" not in skin:
+        if skin is None:
             continue
         joints, trees = joints_of(skin), asset.trees
-        if len({trees.tops[joint] for joint in joints}) != 1:
+        if "joints" in skin and len({trees.tops[joint] for joint in joints}) != 1:
             yield issue("SKIN_NO_COMMON_ROOT", skin.at("joints"))
-        skeleton = skin.get("skeleton")
-        if skeleton is not None and not all(trees.is_above(skeleton, joint) for joint in joints):
-            yield issue("SKIN_SKELETON_INVALID", skin.at("skeleton"))
+        if "skeleton" in skin:
+            skeleton = skin["skeleton"]
+            if not joints or not all(trees.is_above(skeleton, joint) for joint in joints):
+                yield issue("SKIN_SKELETON_INVALID", skin.at("skeleton"))
 
 
 def joints_of(skin: Entry) -> list[int]:
