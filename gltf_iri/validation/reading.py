@@ -19,16 +19,25 @@ __all__ = ["Reading", "is_binary", "json_bytes", "read"]
 class Reading:
     """What a file holds.
 
-    root : the glTF object, or None where it cannot be judged.
+    root : the glTF object, or None where there is none.
     binary : the BIN chunk of a GLB.
+    is_whole : the file does not break off, so that what is missing in it is missed.
     """
 
-    __slots__ = ("binary", "is_glb", "root")
+    __slots__ = ("binary", "is_glb", "is_whole", "root")
 
-    def __init__(self, root: dict[str, Any] | None, binary: memoryview | None, *, is_glb: bool) -> None:
+    def __init__(
+        self,
+        root: dict[str, Any] | None,
+        binary: memoryview | None = None,
+        *,
+        is_glb: bool = False,
+        is_whole: bool = True,
+    ) -> None:
         self.root = root
         self.binary = binary
         self.is_glb = is_glb
+        self.is_whole = is_whole
 
     @property
     def mime_type(self) -> str | None:
@@ -51,13 +60,10 @@ def is_binary(data: bytes, name: str) -> bool:
 def read(data: bytes, name: str, tell: Callable[[Issue], None]) -> Reading:
     """Read a file; `name` counts only where its bytes leave open what it is."""
     if not is_binary(data, name):
-        return Reading(read_json(data, tell), None, is_glb=False)
+        return Reading(read_json(data, tell))
     container = read_container(data, tell)
-    root = None
-    if container.json is not None:
-        root = read_json(bytes(container.json), tell)
-    # Of a file that breaks off, no part is judged as if it were the whole.
-    return Reading(root if container.is_whole else None, container.binary, is_glb=True)
+    root = None if container.json is None else read_json(bytes(container.json), tell)
+    return Reading(root, container.binary, is_glb=True, is_whole=container.is_whole)
 
 
 def json_bytes(data: bytes, name: str) -> bytes:

@@ -75,7 +75,10 @@ def validate(
 def _judge(
     raw: dict[str, Any], reading: Reading, collector: Collector, options: Options, folder: Path | None
 ) -> dict[str, Any] | None:
-    """Run every stage and return the `info` block; of an unknown version the first stages, and no block."""
+    """Run every stage and return the `info` block.
+
+    Of an unknown version, and of a file that breaks off, only the JSON is judged: no data, and no block.
+    """
     walk = Walk(collector)
     try:
         root = walk.root(raw)
@@ -97,7 +100,7 @@ def _judge(
     _run(check_links, asset)
     _follow(RULES, asset)
     _run(check_usage, asset)
-    if not walk.is_known_version:
+    if not (walk.is_known_version and reading.is_whole):
         return None
     _run(check_resources, asset)
     _run(check_images, asset)

@@ -129,9 +129,16 @@ def test_a_container_cut_anywhere_says_where_it_ends(codes, length):
     assert codes(WHOLE[:length]) == expected
 
 
-def test_no_part_of_a_file_that_breaks_off_is_judged_as_if_it_were_the_whole(codes):
-    broken = glb(chunk(b"JSON", b'{"nodes":{}}'), B)[:-1]
-    assert codes(broken) == {("GLB_UNEXPECTED_END_OF_CHUNK_DATA", len(broken))}
+@pytest.mark.parametrize("missing", [1, 5])
+def test_of_a_file_that_breaks_off_only_the_json_is_judged(judge, codes, missing):
+    text = b'{"asset":{"version":"2.0"},"scene":3,"buffers":[{"byteLength":8}]}'
+    named = chunk(b"JSON", text + b" " * (-len(text) % 4))
+    scene = ("UNRESOLVED_REFERENCE", "/scene")
+    assert codes(glb(named, B)) == {scene, ("BUFFER_BYTE_LENGTH_MISMATCH", "/buffers/0")}
+    broken = glb(named, B)[:-missing]
+    end = "GLB_UNEXPECTED_END_OF_CHUNK_DATA" if missing < 4 else "GLB_UNEXPECTED_END_OF_CHUNK_HEADER"
+    assert codes(broken) == {scene, (end, len(broken))}
+    assert judge(broken).info is None
 
 
 def test_chunks_without_number_are_not_walked(codes):
