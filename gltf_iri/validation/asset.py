@@ -10,6 +10,7 @@ from gltf_iri.validation.collector import Collector
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.options import Options
 from gltf_iri.validation.resources import Resources
+from gltf_iri.validation.tables import EXTENSIONS
 from gltf_iri.validation.trees import Trees
 from gltf_iri.validation.walk import Walk
 
@@ -71,3 +72,10 @@ class Asset:
         """Return entry `index` of an array, or None where there is none or it is broken."""
         entries = self.array(name)
         return entries[index] if index is not None and 0 <= index < len(entries) else None
+
+    def knows_extensions_of(self, entry: Entry) -> bool:
+        """Return whether all extensions of `entry` are declared and known; others could mean anything."""
+        stated = entry.raw.get("extensions")
+        return not isinstance(stated, dict) or all(
+            name in EXTENSIONS and name in self.declared for name in stated
+        )

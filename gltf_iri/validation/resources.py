@@ -31,6 +31,7 @@ class Resources:
 
     told : what `info` says of each buffer and picture, in the order of the file.
     elements : the accessors that were asked for, as `data.access` reads them.
+    buffer_bytes, numbers : how many bytes the buffers have, and how many numbers were looked at so far.
     found : what rules about the data found in an accessor, by a name of theirs, so as not to look again.
     """
 
@@ -42,6 +43,8 @@ class Resources:
         self._room = MAX_ASSET_BYTES
         self.told: list[dict[str, Any]] = []
         self.elements: dict[Entry, Elements | None] = {}
+        self.buffer_bytes = 0
+        self.numbers = 0
         self.found: dict[tuple[str, object], Any] = {}
 
     def keep(self, entry: Entry, uri: DataUri | Link | None) -> None:
@@ -68,9 +71,9 @@ class Resources:
         return data[start:end] if data is not None and end <= len(data) else None
 
     def image(self, index: int | None) -> bytes | memoryview | None:
-        """Return the compressed bytes of a picture; None where they are not there."""
+        """Return the compressed bytes of a picture; None where they are not there, or others may count."""
         entry = self._asset.get("images", index)
-        if entry is None:
+        if entry is None or not self._asset.knows_extensions_of(entry):
             return None
         if entry in self._read:
             return self._read[entry]
@@ -113,10 +116,13 @@ class Resources:
             )
         else:
             self._read[entry] = data
+            self.buffer_bytes += len(data)
 
     def _load_image(self, entry: Entry) -> Iterator[Issue]:
         told: dict[str, Any] = {"pointer": entry.pointer}
         self.told.append(told)
+        if not self._asset.knows_extensions_of(entry):
+            return  # who knows them may read another picture
         if "uri" in entry:
             data = yield from self._load_uri(entry, told, MAX_IMAGE_FILE_BYTES)
             if data is not None:

@@ -9,7 +9,7 @@ from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.registry import Rules
-from gltf_iri.validation.tables import EXTENSIONS, sound_value_of, value_of
+from gltf_iri.validation.tables import sound_value_of, value_of
 
 __all__ = ["RULES"]
 
@@ -41,9 +41,9 @@ def dispersion_needs_a_volume(entry: Entry, asset: Asset) -> Iterator[Issue]:
 
 def volume_lets_light_in(entry: Entry, asset: Asset) -> Iterator[Issue]:
     """A volume is seen through its surface; an extension that is not known may be what transmits."""
-    names = _extension_names(entry.parent)
-    is_known = all(name in EXTENSIONS and name in asset.declared for name in names)
-    if is_known and not _TRANSMITTING & names:
+    material = entry.parent
+    is_known = material is not None and asset.knows_extensions_of(material)
+    if is_known and not _TRANSMITTING & _extension_names(material):
         yield issue("KHR_MATERIALS_VOLUME_NO_TRANSMISSION", entry.pointer)
 
 
