@@ -138,6 +138,6 @@ def _tell_failure(
     """Make a remark of a rule's own fault: one broken rule must not cost the verdict of all others."""
     if options.raises:
         raise error
-    name = getattr(rule, "__qualname__", type(rule).__name__)
+    name = f"{rule.__module__}.{getattr(rule, '__qualname__', type(rule).__name__)}"
     reason = f"{type(error).__name__}: {error}"[:_LONGEST_REASON]
     collector.add(issue("IRI_RULE_FAILED", pointer, rule=name, reason=reason))
