@@ -6,6 +6,8 @@ from operator import lt
 from typing import TYPE_CHECKING, Any
 
 from gltf_iri.asset.limits import MAX_BUFFERLESS_COUNT
+from gltf_iri.validation.codes import issue
+from gltf_iri.validation.data.codes import DATA_CODES as _DATA_CODES  # noqa: F401  # makes them known
 from gltf_iri.validation.data.elements import Elements, cast
 from gltf_iri.validation.tables import sound_value_of
 
@@ -13,10 +15,16 @@ if TYPE_CHECKING:
     from gltf_iri.validation.asset import Asset
     from gltf_iri.validation.entry import Entry
 
-__all__ = ["elements_of", "increasing", "sparse_indices"]
+__all__ = ["blocks", "elements_of", "increasing", "sparse_indices"]
 
 # Elements at a time where sparse indices are compared with their neighbours.
 _STEP = 1 << 16
+
+# How many numbers are looked at: each byte of the buffers so often, as if it were a number of its own, and
+# some that no byte stands for. Sound files have each float looked at twice; the rest is room for accessors
+# that many primitives share. Together they take a second for a hostile file of some kilobytes.
+_NUMBERS_PER_BYTE = 8
+_UNVOUCHED_NUMBERS = 1 << 22
 
 
 def elements_of(accessor: Entry | None, asset: Asset) -> Elements | None:
@@ -31,6 +39,21 @@ def elements_of(accessor: Entry | None, asset: Asset) -> Elements | None:
     if accessor not in known:
         known[accessor] = _read(accessor, asset)
     return known[accessor]
+
+
+def blocks(elements: Elements, asset: Asset, pointer: str) -> range:
+    """Return the first element of every block; none where the file has had enough numbers looked at."""
+    resources = asset.resources
+    numbers = elements.count * elements.width
+    resources.numbers += numbers
+    allowed = _UNVOUCHED_NUMBERS + _NUMBERS_PER_BYTE * resources.buffer_bytes
+    if resources.numbers <= allowed:
+        return elements.starts()
+    if resources.numbers - numbers <= allowed:
+        reason = f"{allowed} are the most for {resources.buffer_bytes} bytes of buffers"
+        asset.collector.add(issue("IRI_DATA_NOT_CHECKED", pointer, reason=reason))
+        resources.numbers = allowed + 1
+    return range(0)
 
 
 def _read(accessor: Entry, asset: Asset) -> Elements | None:
@@ -49,7 +72,11 @@ def _read(accessor: Entry, asset: Asset) -> Elements | None:
         elements.base = _bytes_of(accessor, asset, elements)
         if elements.base is None:
             return None
-    elif sparse is None or elements.count > MAX_BUFFERLESS_COUNT:
+    elif sparse is None:
+        return None
+    elif elements.count > MAX_BUFFERLESS_COUNT:
+        reason = f"of an accessor without buffer view, {MAX_BUFFERLESS_COUNT} elements are the most"
+        asset.collector.add(issue("IRI_DATA_NOT_CHECKED", accessor.at("count"), reason=reason))
         return None
     if sparse is not None:
         if sparse["count"] > elements.count:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from gltf_iri.asset.formats import INVERSE_BIND_MATRIX_FORMATS
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.data.access import elements_of
+from gltf_iri.validation.data.access import blocks, elements_of
 from gltf_iri.validation.rules.primitives import accessor_format
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def bind_matrices_are_affine(skin: Entry, asset: Asset) -> Iterator[Issue]:
     if elements is None or ("affine", accessor) in asset.resources.found:
         return
     is_clean = True
-    for first in elements.starts():
+    for first in blocks(elements, asset, accessor.pointer):
         columns = elements.columns(first)
         for place, wanted in _LAST_ROW.items():
             column = columns[place]

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from array import array
+from itertools import repeat
+from math import inf
+from operator import gt, lt
 from typing import TYPE_CHECKING, Any
 
 from gltf_iri.asset.formats import FLOAT
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.data.access import elements_of, increasing, sparse_indices
+from gltf_iri.validation.data.access import blocks, elements_of, increasing, sparse_indices
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -54,7 +57,7 @@ def accessors_hold_what_they_say(accessor: Entry, asset: Asset) -> Iterator[Issu
         return
     low: list[Any] = []
     high: list[Any] = []
-    for first in elements.starts():
+    for first in blocks(elements, asset, accessor.pointer):
         is_suspect = elements.component == FLOAT and _is_suspect(elements, first)
         if not is_suspect and not has_bounds:
             continue
@@ -63,8 +66,8 @@ def accessors_hold_what_they_say(accessor: Entry, asset: Asset) -> Iterator[Issu
             yield from _invalid_floats(accessor, columns, first)
         if has_bounds:
             _widen(low, high, columns, is_suspect=is_suspect)
-    if has_bounds:
-        yield from _compare(accessor, elements, low, high)
+    if low:
+        yield from _compare(accessor, asset, elements, low, high)
 
 
 def _is_suspect(elements: Elements, first: int) -> bool:
@@ -102,22 +105,31 @@ def _widen(low: list[Any], high: list[Any], columns: list[list[Any]], *, is_susp
             high[place] = max(high[place], max(column))
 
 
-def _compare(accessor: Entry, elements: Elements, low: list[Any], high: list[Any]) -> Iterator[Issue]:
+def _compare(
+    accessor: Entry, asset: Asset, elements: Elements, low: list[Any], high: list[Any]
+) -> Iterator[Issue]:
+    beyond: list[tuple[str, str, int, Any]] = []
     for key, code, actual in (("min", "MIN", low), ("max", "MAX", high)):
         for place, stated in enumerate(accessor.get(key, ())):
-            # Bounds of floats are rounded to float32, which the data is (§3.6.2.5).
-            declared = array("f", (stated,))[0] if elements.component == FLOAT else stated
-            if actual[place] == declared:
-                continue
-            pointer = accessor.at(key, place)
-            yield issue(f"ACCESSOR_{code}_MISMATCH", pointer, declared=declared, actual=actual[place])
-            if actual[place] < declared if key == "min" else actual[place] > declared:
-                count = _count_beyond(elements, place, declared, is_below=key == "min")
-                yield issue(f"ACCESSOR_ELEMENT_OUT_OF_{code}_BOUND", pointer, count=count, bound=declared)
+            declared = _single(stated) if elements.component == FLOAT else stated
+            if actual[place] != declared:
+                pointer = accessor.at(key, place)
+                yield issue(f"ACCESSOR_{code}_MISMATCH", pointer, declared=declared, actual=actual[place])
+                if actual[place] < declared if key == "min" else actual[place] > declared:
+                    beyond.append((f"ACCESSOR_ELEMENT_OUT_OF_{code}_BOUND", key, place, declared))
+    counts = [0] * len(beyond)
+    for first in blocks(elements, asset, accessor.pointer) if beyond else ():
+        columns = elements.columns(first)
+        for number, (_, key, place, bound) in enumerate(beyond):
+            compare = gt if key == "min" else lt
+            counts[number] += sum(map(compare, repeat(bound), columns[place]))
+    for count, (code, key, place, bound) in zip(counts, beyond, strict=True):
+        yield issue(code, accessor.at(key, place), count=count, bound=bound)
 
 
-def _count_beyond(elements: Elements, place: int, bound: float, *, is_below: bool) -> int:
-    columns = (elements.columns(first)[place] for first in elements.starts())
-    if is_below:
-        return sum(value < bound for column in columns for value in column)
-    return sum(value > bound for column in columns for value in column)
+def _single(value: float) -> float:
+    """Round a bound to float32, which the data is (§3.6.2.5)."""
+    try:
+        return array("f", (value,))[0]
+    except OverflowError:  # an integer of more than 308 digits
+        return inf if value > 0 else -inf

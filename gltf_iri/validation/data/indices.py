@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gltf_iri.asset.formats import INDEX_FORMATS, INTEGER_RANGES
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.data.access import elements_of
+from gltf_iri.validation.data.access import blocks, elements_of
 from gltf_iri.validation.rules.primitives import accessor_format
 from gltf_iri.validation.tables import sound_value_of
 
@@ -37,7 +37,7 @@ def indices_name_vertices(primitive: Entry, asset: Asset) -> Iterator[Issue]:
     vertices = _count_of_vertices(primitive, asset)
     restart = INTEGER_RANGES[elements.component][1]
     if largest >= vertices or largest == restart:
-        yield from _faulty(primitive, elements, vertices, restart)
+        yield from _faulty(primitive, elements, asset, vertices, restart)
     if degenerate:
         yield issue(
             "ACCESSOR_INDEX_TRIANGLE_DEGENERATE",
@@ -63,7 +63,7 @@ def _summary(accessor: Entry, elements: Elements, asset: Asset, *, is_list: bool
     name = ("triangles" if is_list else "indices", accessor)
     if name not in found:
         largest = degenerate = 0
-        for first in elements.starts():
+        for first in blocks(elements, asset, accessor.pointer):
             column = elements.columns(first)[0]
             largest = max(largest, max(column))
             if is_list:
@@ -81,9 +81,11 @@ def _degenerate(column: list[int]) -> int:
     return 0
 
 
-def _faulty(primitive: Entry, elements: Elements, vertices: int, restart: int) -> Iterator[Issue]:
+def _faulty(
+    primitive: Entry, elements: Elements, asset: Asset, vertices: int, restart: int
+) -> Iterator[Issue]:
     pointer = primitive.at("indices")
-    for first in elements.starts():
+    for first in blocks(elements, asset, pointer):
         column = elements.columns(first)[0]
         if max(column) < min(vertices, restart):
             continue

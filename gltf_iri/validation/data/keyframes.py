@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from gltf_iri.asset.formats import INPUT_FORMATS
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.data.access import elements_of
+from gltf_iri.validation.data.access import blocks, elements_of
 from gltf_iri.validation.data.normalised import columns_of
 from gltf_iri.validation.rules.primitives import accessor_format
 
@@ -35,7 +35,7 @@ def times_increase(sampler: Entry, asset: Asset) -> Iterator[Issue]:
     if elements is None or ("times", accessor) in asset.resources.found:
         return
     pointer, previous, is_clean = sampler.at("input"), -1.0, True
-    for first in elements.starts():
+    for first in blocks(elements, asset, accessor.pointer):
         times = elements.columns(first)[0]
         if times[0] >= 0.0 and times[0] > previous and all(map(lt, times, times[1:])):
             previous = times[-1]
@@ -67,7 +67,7 @@ def rotations_are_of_length_1(channel: Entry, asset: Asset) -> Iterator[Issue]:
     if name in asset.resources.found:
         return
     is_clean = True
-    for first in elements.starts():
+    for first in blocks(elements, asset, accessor.pointer):
         lengths = list(map(hypot, *(column[start::step] for column in columns_of(elements, first))))
         if all(abs(length - 1.0) <= _LARGEST_LENGTH_ERROR for length in lengths):
             continue

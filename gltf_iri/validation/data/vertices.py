@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from gltf_iri.asset.formats import ATTRIBUTE_FORMATS, FLOAT, QUANTIZED_ATTRIBUTE_FORMATS
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.data.access import elements_of
+from gltf_iri.validation.data.access import blocks, elements_of
 from gltf_iri.validation.data.normalised import columns_of
 from gltf_iri.validation.rules.attributes import semantic_of
 from gltf_iri.validation.rules.primitives import accessor_format
@@ -36,7 +36,7 @@ def vertices_are_of_length_1_or_clamped(primitive: Entry, asset: Asset) -> Itera
         if elements is None or (name, elements) in asset.resources.found:
             continue
         is_clean = True
-        for remark in law(elements, primitive.at("attributes", name)):
+        for remark in law(elements, asset, primitive.at("attributes", name)):
             is_clean = False
             yield remark
         if is_clean:
@@ -53,13 +53,13 @@ def attribute_elements(primitive: Entry, name: str, asset: Asset) -> Elements | 
     return elements_of(accessor, asset) if accessor_format(accessor) in formats[semantic_of(name)] else None
 
 
-def _vectors(elements: Elements, pointer: str) -> Iterator[Issue]:
-    for first in elements.starts():
+def _vectors(elements: Elements, asset: Asset, pointer: str) -> Iterator[Issue]:
+    for first in blocks(elements, asset, pointer):
         yield from _lengths(columns_of(elements, first), first, elements.width, pointer)
 
 
-def _tangents(elements: Elements, pointer: str) -> Iterator[Issue]:
-    for first in elements.starts():
+def _tangents(elements: Elements, asset: Asset, pointer: str) -> Iterator[Issue]:
+    for first in blocks(elements, asset, pointer):
         *columns, signs = columns_of(elements, first)
         yield from _lengths(columns, first, elements.width, pointer)
         if not _SIGNS.issuperset(signs):
@@ -85,11 +85,11 @@ def _lengths(columns: list[list[float]], first: int, width: int, pointer: str) -
             )
 
 
-def _colours(elements: Elements, pointer: str) -> Iterator[Issue]:
+def _colours(elements: Elements, asset: Asset, pointer: str) -> Iterator[Issue]:
     if elements.component != FLOAT:
         return
     width = elements.width
-    for first in elements.starts():
+    for first in blocks(elements, asset, pointer):
         columns = elements.columns(first)
         if all(min(column) >= 0.0 and max(column) <= 1.0 for column in columns):
             continue
@@ -101,7 +101,7 @@ def _colours(elements: Elements, pointer: str) -> Iterator[Issue]:
 
 
 # glTF bounds the first set of colours only (§3.7.2.1).
-_LAWS: dict[str, Callable[[Elements, str], Iterator[Issue]]] = {
+_LAWS: dict[str, Callable[[Elements, Asset, str], Iterator[Issue]]] = {
     "NORMAL": _vectors,
     "TANGENT": _tangents,
     "COLOR_0": _colours,
