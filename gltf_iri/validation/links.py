@@ -38,12 +38,13 @@ def check_links(asset: Asset) -> None:
         if name not in lists:
             lists[name] = asset.array(name)
         targets = lists[name]
-        if "." in name:
-            if name == "animation.samplers":
-                targets = entry.parent.get("samplers", []) if entry.parent is not None else []
-            elif _has_no_list(asset, entry):
-                del entry[field.key]
-                continue
+        if name == "animation.samplers":
+            targets = entry.parent.get("samplers", []) if entry.parent is not None else []
+        listed_by = TABLES[entry.table].listed_by
+        if listed_by and listed_by not in asset.root.extensions:
+            # There is no list at all to look into, which is told once for the object.
+            del entry[field.key]
+            continue
         value = entry[field.key]
         # Nearly all references are one index that is right.
         if isinstance(value, int) and value < len(targets) and entry.table not in _PARTS:
@@ -58,12 +59,6 @@ def is_whole(entry: Entry) -> bool:
     """Tell whether all properties are there that the object must have."""
     table = TABLES[entry.table]
     return all(key in entry or is_unlisted(table.fields[key], entry.raw.get(key)) for key in table.required)
-
-
-def _has_no_list(asset: Asset, entry: Entry) -> bool:
-    """Whether there is no list at all to look into, which is told once for its holder."""
-    extension = TABLES[entry.table].listed_by
-    return bool(extension) and extension not in asset.root.extensions
 
 
 def _is_dead(entry: Entry) -> bool:
