@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Generator, Iterator
 from typing import TYPE_CHECKING, Any
+from weakref import proxy
 
 from gltf_iri.asset.limits import MAX_ASSET_BYTES, MAX_FILE_BYTES, MAX_IMAGE_FILE_BYTES
 from gltf_iri.errors import AssetError
@@ -36,7 +37,8 @@ class Resources:
     """
 
     def __init__(self, asset: Asset) -> None:
-        self._asset = asset
+        # Weak, so that no cycle keeps the bytes of one file while the next ones are read.
+        self._asset: Asset = proxy(asset)
         self._uris: dict[Entry, DataUri | Link | None] = {}
         self._read: dict[Entry, bytes | memoryview] = {}
         self._files: dict[str, bytes | str] = {}
