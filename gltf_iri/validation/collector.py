@@ -9,8 +9,9 @@ from gltf_iri.validation.options import Options
 
 __all__ = ["Collector", "EnoughError"]
 
-# What is kept where the user wants all remarks: a hostile file could call for a thousand million.
-_MOST_KEPT = 1_000_000
+# What is kept where the user wants all remarks: 3 MB of "{}," could call for two million. Beyond so many,
+# errors alone are kept, so that no flood of lesser remarks hides one; twice as many end the work.
+_MOST_KEPT = 100_000
 
 
 class EnoughError(Exception):
@@ -20,14 +21,18 @@ class EnoughError(Exception):
 class Collector:
     """The remarks so far, in the order they were made."""
 
-    __slots__ = ("_ignore", "_least", "_most", "_only", "_override", "has_errors", "is_truncated", "issues")
+    __slots__ = (
+        *("_ignore", "_least", "_most", "_most_of_all_kinds", "_only", "_override"),
+        *("has_errors", "is_truncated", "issues"),
+    )
 
     def __init__(self, options: Options) -> None:
         self._ignore = options.ignore
         self._only = options.only
         self._override = options.override
         self._least = options.least
-        self._most = options.max_issues or _MOST_KEPT
+        self._most = options.max_issues or 2 * _MOST_KEPT
+        self._most_of_all_kinds = options.max_issues or _MOST_KEPT
         self.issues: list[Issue] = []
         self.is_truncated = False
         self.has_errors = False
@@ -41,9 +46,12 @@ class Collector:
             issue = issue._replace(severity=self._override[code])
         if issue.severity > self._least:
             return
-        if len(self.issues) >= self._most:
+        if len(self.issues) >= self._most_of_all_kinds:
             self.is_truncated = True
-            raise EnoughError
+            if len(self.issues) >= self._most:
+                raise EnoughError
+            if issue.severity != ERROR:
+                return
         if issue.severity == ERROR:
             self.has_errors = True
         self.issues.append(issue)
