@@ -9,6 +9,7 @@ from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.registry import Rules
+from gltf_iri.validation.values import BROKEN, typed
 
 __all__ = ["RULES"]
 
@@ -17,16 +18,17 @@ _EXTENSION = "KHR_materials_variants"
 
 def variant_has_one_material(entry: Entry, asset: Asset) -> Iterator[Issue]:
     """Each variant stands once in all mappings of a primitive; one that does not exist counts too."""
-    seen: set[float] = set()
+    seen: set[int] = set()
     for mapping in entry.get("mappings", ()):
         if mapping is None or "variants" not in mapping:
             continue
-        for position, index in enumerate(mapping.raw["variants"]):
-            if isinstance(index, (int, float)) and not isinstance(index, bool) and index >= 0:
-                if index in seen:
-                    pointer = mapping.at("variants", position)
-                    yield issue("KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT", pointer)
-                seen.add(index)
+        for position, value in enumerate(mapping.raw["variants"]):
+            index = typed("INDEX", value)
+            if index is BROKEN or index < 0:
+                continue
+            if index in seen:
+                yield issue("KHR_MATERIALS_VARIANTS_NON_UNIQUE_VARIANT", mapping.at("variants", position))
+            seen.add(index)
 
 
 def mapping_needs_the_list_of_variants(entry: Entry, asset: Asset) -> Iterator[Issue]:
