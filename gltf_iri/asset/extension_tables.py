@@ -51,7 +51,7 @@ def _color(key: str, *default: float) -> Row:
 
 EXTENSION_OBJECTS: Final[Mapping[str, tuple[Row, ...]]] = {
     "EXT_texture_webp": (Row("source", Kind.INDEX, low=0, refers_to="images"),),
-    "KHR_animation_pointer": (Row("pointer", Kind.TEXT, required=True, pattern=r"(/([^~/]|~0|~1)*)*"),),
+    "KHR_animation_pointer": (Row("pointer", Kind.TEXT, required=True, pattern=r"(/([^~/]++|~0|~1)*+)*+"),),
     "KHR_lights_punctual": (
         Row("lights", Kind.OBJECT, Shape.ARRAY, required=True, table="KHR_lights_punctual.light"),
     ),

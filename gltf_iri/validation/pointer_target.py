@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from gltf_iri.asset.limits import MAX_JSON_DEPTH
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.tables import EXTENSIONS, TABLES, Field, Table
 
@@ -65,6 +66,8 @@ class Target:
 
 def resolve(root: Entry, pointer: str) -> Target | Unresolved:
     """Return what the JSON Pointer `pointer` leads to in the file of `root`, or why it leads nowhere."""
+    if pointer.count("/") > MAX_JSON_DEPTH:
+        return Unresolved("IRI_POINTER_UNDEFINED", "nothing in a file is nested so deep")
     tokens = tuple(token.replace("~1", "/").replace("~0", "~") for token in pointer.split("/")[1:])
     try:
         return _Search(root.raw, tokens).target()

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from gltf_iri.validation.entry import Entry
     from gltf_iri.validation.pointer_target import Target
 
-__all__ = ["values_of"]
+__all__ = ["values_key", "values_of"]
 
 _COMPONENTS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
@@ -24,6 +24,11 @@ _LETTERS = {5120: "b", 5121: "B", 5122: "h", 5123: "H", 5125: "I", FLOAT: "f"}
 
 # Values that are unpacked at once: an animation of a gigabyte must not become ten.
 _AT_ONCE = 1 << 16
+
+
+def values_key(sampler: Entry, target: Target) -> tuple[object, ...]:
+    """Return what `values_of` depends on: the same for two channels that take the same values."""
+    return sampler.get("output"), value_of(sampler, "interpolation"), target.size * (target.length or 1)
 
 
 def values_of(sampler: Entry, target: Target, asset: Asset) -> Iterator[tuple[float, ...]]:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
     Float64 = NDArray[np.float64]
 
-__all__ = ["COSINES", "bare_colours", "layer_colours", "periods", "stack_colours"]
+__all__ = ["COSINES", "bare_colours", "cost_of", "layer_colours", "periods", "stack_colours"]
 
 # From straight on to 78°, in the host: towards grazing light all surfaces are white.
 COSINES = np.linspace(1.0, 0.2, 9)
@@ -81,6 +81,11 @@ def bare_colours(stack: Stack) -> Float64:
     fresnel = f_schlick(np.full(3, _DIELECTRIC_F0), cosine)
     dielectric = fresnel + (1.0 - fresnel) * colour
     return np.asarray((1.0 - metallic) * dielectric + metallic * f_schlick(colour, cosine))
+
+
+def cost_of(stack: Stack) -> int:
+    """Return how many reflectances it takes to look at all layers all over; UsageError where too many."""
+    return sum(_samples(layer, periods(layer)) for layer in stack.layers) * _PERIODS * len(COSINES)
 
 
 def periods(layer: Layer, texels: Float64 | None = None) -> Float64:

@@ -18,6 +18,7 @@ from gltf_iri.validation.optics.layer_banding import largest_step
 from gltf_iri.validation.optics.layer_colours import (
     COSINES,
     bare_colours,
+    cost_of,
     layer_colours,
     periods,
     stack_colours,
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
     from gltf_iri.validation.bragg_stack import Layer, Stack
     from gltf_iri.validation.issue import Issue
 
-__all__ = ["with_consequence"]
+__all__ = ["Consequences"]
 
 # A texel's middle value, and what is left of it where data is decoded as a colour (IEC 61966-2-1).
 _MIDDLE = 0.5
@@ -35,25 +36,38 @@ _MIDDLE_DECODED = ((_MIDDLE + 0.055) / 1.055) ** 2.4
 
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
-# Of cells no reader must accept more, and a spectrum takes longer the more there are layers.
+# Eight times what every reader must accept.
 _MOST_LAYERS = 32
+
+# Reflectances, for all remarks on one file: some seconds.
+_MOST_REFLECTANCES = 50_000_000
 
 _LEVELS = 256
 
 
-def with_consequence(remark: Issue, stack: Stack) -> Issue:
-    """Return the remark with its measured consequence, or as it is where nothing can be measured."""
-    measured = _MEASURED.get(remark.code)
-    if measured is None or len(stack.layers) > _MOST_LAYERS:
-        return remark
-    sentence, measure = measured
-    try:
-        worst = measure(stack, remark)
-    except UsageError:  # the file asks for what no mirror can be
-        return remark
-    if not math.isfinite(worst):
-        return remark
-    return remark._replace(message=f"{remark.message} {sentence.format(amount=_amount(worst))}")
+class Consequences:
+    """Measures what the remarks on one file mean, as long as that takes seconds."""
+
+    def __init__(self) -> None:
+        self._left = _MOST_REFLECTANCES
+
+    def added_to(self, remark: Issue, stack: Stack) -> Issue:
+        """Return the remark with its measured consequence, or as it is where nothing can be measured."""
+        measured = _MEASURED.get(remark.code)
+        if measured is None or len(stack.layers) > _MOST_LAYERS:
+            return remark
+        sentence, measure = measured
+        try:
+            cost = cost_of(stack)
+            if cost > self._left:
+                return remark
+            self._left -= cost
+            worst = measure(stack, remark)
+        except UsageError:  # the file asks for what no mirror can be
+            return remark
+        if not math.isfinite(worst):
+            return remark
+        return remark._replace(message=f"{remark.message} {sentence.format(amount=_amount(worst))}")
 
 
 def _amount(delta_e: float) -> str:

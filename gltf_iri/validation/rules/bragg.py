@@ -42,15 +42,11 @@ _LIMITS = (
 
 
 def _layers(root: Entry, asset: Asset) -> Iterator[Issue]:
-    if EXTENSION not in asset.declared:
-        return
-    is_used = False
-    colours: dict[int, str] | None = None
-    for stack in stacks(asset):
-        is_used = True
-        colours = colour_images(asset) if colours is None else colours
-        yield from _told(stack, _of_stack(stack, asset, colours), asset)
-    yield from _declarations(root, is_used=is_used)
+    if EXTENSION in asset.declared:
+        found = list(stacks(asset))
+        colours = colour_images(asset) if found else {}
+        yield from _told(((stack, _of_stack(stack, asset, colours)) for stack in found), asset)
+        yield from _declarations(root, is_used=bool(found))
 
 
 def _of_stack(stack: Stack, asset: Asset, colours: dict[int, str]) -> Iterator[Issue]:
@@ -65,24 +61,26 @@ def _of_stack(stack: Stack, asset: Asset, colours: dict[int, str]) -> Iterator[I
 
 def _data(root: Entry, asset: Asset) -> Iterator[Issue]:
     """Tell what pictures and animations make of the layers."""
-    if EXTENSION not in asset.declared:
-        return
-    steps = Steps()
-    for stack in stacks(asset):
-        if stack.is_active and not _excluded_by(stack):
-            yield from _told(stack, pictures(stack, asset, steps), asset)
-    yield from animated_indices(asset)
+    if EXTENSION in asset.declared and (asset.images or asset.array("animations")):
+        steps = Steps()
+        found = list(stacks(asset))
+        drawn = (stack for stack in found if stack.is_active and not _excluded_by(stack))
+        yield from _told(((stack, pictures(stack, asset, steps)) for stack in drawn), asset)
+        yield from animated_indices(found, asset)
 
 
-def _told(stack: Stack, remarks: Iterable[Issue], asset: Asset) -> Iterator[Issue]:
-    """Yield the remarks, with what they mean in ΔE where the user wants to know."""
+def _told(remarks: Iterable[tuple[Stack, Iterable[Issue]]], asset: Asset) -> Iterator[Issue]:
+    """Yield the remarks on each stack, with what they mean in ΔE where the user wants to know."""
     if not asset.options.optics:
-        yield from remarks
+        for _, of_stack in remarks:
+            yield from of_stack
         return
-    from gltf_iri.validation.optics.layer_consequences import with_consequence
+    from gltf_iri.validation.optics.layer_consequences import Consequences
 
-    for remark in remarks:
-        yield with_consequence(remark, stack)
+    consequences = Consequences()
+    for stack, of_stack in remarks:
+        for remark in of_stack:
+            yield consequences.added_to(remark, stack)
 
 
 def _exclusions(stack: Stack) -> Iterator[Issue]:

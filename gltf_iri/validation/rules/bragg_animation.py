@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from gltf_iri.validation.bragg_stack import TRANSMISSION, stacks
+from gltf_iri.validation.bragg_stack import TRANSMISSION
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.pointer_target import Target
-from gltf_iri.validation.pointer_values import values_of
+from gltf_iri.validation.pointer_values import values_key, values_of
 from gltf_iri.validation.rules.pointers import pointed_channels, sampler_of
 
 if TYPE_CHECKING:
@@ -33,13 +33,17 @@ _BELOW = (
 )
 
 
-def animated_indices(asset: Asset) -> Iterator[Issue]:
+def animated_indices(found: list[Stack], asset: Asset) -> Iterator[Issue]:
     """Yield the animations that make a first index differ from the host's where it must not."""
-    listed = [stack for stack in stacks(asset) if any(layer.states_ior1 for layer in stack.layers)]
+    listed = {
+        stack.tokens()[:2]: stack for stack in found if any(layer.states_ior1 for layer in stack.layers)
+    }
+    reach = _Reach(asset)
     for animation in asset.array("animations") if listed else ():
         moved = _moved(animation, asset) if animation is not None else {}
-        for stack in listed if moved else ():
-            yield from _of_stack(stack, moved, asset)
+        for material in dict.fromkeys(tokens[:2] for tokens in moved):
+            if material in listed:
+                yield from _of_stack(listed[material], moved, reach)
 
 
 def _moved(animation: Entry, asset: Asset) -> Moved:
@@ -51,35 +55,47 @@ def _moved(animation: Entry, asset: Asset) -> Moved:
     return found
 
 
-def _of_stack(stack: Stack, moved: Moved, asset: Asset) -> Iterator[Issue]:
+class _Reach:
+    """How far values go from a number; each accessor is read once, however many channels share it."""
+
+    def __init__(self, asset: Asset) -> None:
+        self._asset = asset
+        self._ends: dict[object, tuple[float, float] | None] = {}
+
+    def farthest(self, channel: tuple[Entry, Entry, Target], other: float) -> float:
+        """Return the greatest distance from `other`; 0 where the values cannot be read."""
+        _, sampler, target = channel
+        key = values_key(sampler, target)
+        if key not in self._ends:
+            blocks = [(min(block), max(block)) for block in values_of(sampler, target, self._asset) if block]
+            lows, highs = zip(*blocks, strict=True) if blocks else ((), ())
+            self._ends[key] = (min(lows), max(highs)) if blocks else None
+        ends = self._ends[key]
+        return 0.0 if ends is None else max(abs(ends[0] - other), abs(ends[1] - other))
+
+
+def _of_stack(stack: Stack, moved: Moved, reach: _Reach) -> Iterator[Issue]:
     for layer in stack.layers:
         if not layer.states_ior1 or layer.ior1 is None or stack.host_ior is None:
             continue
         if stack.why_unbent(layer):
-            yield from _apart(layer, layer.ior1, stack, moved, asset)
+            yield from _apart(layer, layer.ior1, stack, moved, reach)
         elif layer.ior1 != stack.host_ior:
             for below in _BELOW:
                 channel = moved.get((*stack.tokens()[:2], *below))
-                if channel is not None and _farthest(channel, 0.0, asset) > 0.0:
+                if channel is not None and reach.farthest(channel, 0.0) > 0.0:
                     yield _told(channel, layer, f"{below[-1]} does not stay 0")
 
 
-def _apart(layer: Layer, ior1: float, stack: Stack, moved: Moved, asset: Asset) -> Iterator[Issue]:
+def _apart(layer: Layer, ior1: float, stack: Stack, moved: Moved, reach: _Reach) -> Iterator[Issue]:
     """Tell where one of both indices moves and the other stays; where both do, their times may meet."""
     own = moved.get(stack.tokens("layers", str(layer.position), "ior1"))
     host = moved.get(stack.tokens("hostIor"))
     channel, other = (host, ior1) if own is None else (own, stack.host_ior)
     if channel is None or other is None or (own is not None and host is not None):
         return
-    if _farthest(channel, other, asset) > _ROUNDING * other:
+    if reach.farthest(channel, other) > _ROUNDING * other:
         yield _told(channel, layer, "one of the two moves, and the other does not")
-
-
-def _farthest(channel: tuple[Entry, Entry, Target], other: float, asset: Asset) -> float:
-    """Return how far the channel's values go from `other`; 0 where they cannot be read."""
-    _, sampler, target = channel
-    blocks = values_of(sampler, target, asset)
-    return max((max(abs(min(b) - other), abs(max(b) - other)) for b in blocks if b), default=0.0)
 
 
 def _told(channel: tuple[Entry, Entry, Target], layer: Layer, reason: str) -> Issue:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.pointer_target import Target
-from gltf_iri.validation.pointer_values import values_of
+from gltf_iri.validation.pointer_values import values_key, values_of
 from gltf_iri.validation.rules.pointers import pointed_channels, sampler_of, shown_tokens
 
 if TYPE_CHECKING:
@@ -28,16 +28,36 @@ __all__ = ["DATA_RULES", "RULES"]
 _ROUNDING = 1e-6
 
 
-def _values(animation: Entry, asset: Asset) -> Iterator[Issue]:
-    for _, channel, _, target in pointed_channels(animation, asset):
-        sampler = sampler_of(channel)
-        if sampler is not None and isinstance(target, Target) and target.field is not None:
-            yield from _outside(sampler, target, target.field, asset)
+# How many values are outside, and the first of them with its position.
+_Outside = tuple[int, int, float]
 
 
-def _outside(sampler: Entry, target: Target, field: Field, asset: Asset) -> Iterator[Issue]:
-    if not field.has_range:
-        return
+def _values(root: Entry, asset: Asset) -> Iterator[Issue]:
+    # Many channels may share the values of one accessor: they are looked at once for each range.
+    known: dict[object, _Outside] = {}
+    for animation in asset.array("animations"):
+        for _, channel, _, target in pointed_channels(animation, asset) if animation is not None else ():
+            sampler = sampler_of(channel)
+            field = target.field if isinstance(target, Target) else None
+            if sampler is None or not isinstance(target, Target) or field is None or not field.has_range:
+                continue
+            key = (*values_key(sampler, target), field)
+            if key not in known:
+                known[key] = _outside(sampler, target, field, asset)
+            count, index, value = known[key]
+            if count:
+                yield issue(
+                    "IRI_POINTER_VALUE",
+                    sampler.at("output"),
+                    count=count,
+                    target=shown_tokens(target.tokens),
+                    range=_interval(field),
+                    index=index // target.size,
+                    value=f"{value:g}",
+                )
+
+
+def _outside(sampler: Entry, target: Target, field: Field, asset: Asset) -> _Outside:
     count, first, position = 0, (0, 0.0), 0
     for block in values_of(sampler, target, asset):
         # Hardly any block has a fault, and these two run through it ten times as fast.
@@ -47,16 +67,7 @@ def _outside(sampler: Entry, target: Target, field: Field, asset: Asset) -> Iter
                     first = first if count else (index, value)
                     count += 1
         position += len(block)
-    if count:
-        yield issue(
-            "IRI_POINTER_VALUE",
-            sampler.at("output"),
-            count=count,
-            target=shown_tokens(target.tokens),
-            range=_interval(field),
-            index=first[0] // target.size,
-            value=f"{first[1]:g}",
-        )
+    return count, *first
 
 
 def _is_inside(field: Field, value: float) -> bool:
@@ -76,4 +87,4 @@ def _interval(field: Field) -> str:
 
 
 RULES: Rules = {}
-DATA_RULES: Rules = {"animation": (_values,)}
+DATA_RULES: Rules = {"glTF": (_values,)}
