@@ -58,7 +58,7 @@ class Resources:
         return self._uris.get(entry)
 
     def buffer(self, index: int | None) -> memoryview | None:
-        """Return the bytes of a buffer; None where they are not there, or fewer than its byteLength."""
+        """Return the bytes of a buffer, more or fewer than its byteLength; None where they are not there."""
         entry = self._asset.get("buffers", index)
         data = self._read.get(entry) if entry is not None else None
         return memoryview(data) if data is not None else None
@@ -116,9 +116,8 @@ class Resources:
             yield issue(
                 "BUFFER_BYTE_LENGTH_MISMATCH", entry.pointer, length=len(data), declared=entry["byteLength"]
             )
-        else:
-            self._read[entry] = data
-            self.buffer_bytes += len(data)
+        self._read[entry] = data
+        self.buffer_bytes += len(data)
 
     def _load_image(self, entry: Entry) -> Iterator[Issue]:
         told: dict[str, Any] = {"pointer": entry.pointer}

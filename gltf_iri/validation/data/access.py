@@ -68,8 +68,9 @@ def _read(accessor: Entry, asset: Asset) -> Elements | None:
     sparse = accessor.get("sparse")
     if sparse is not None and not {"count", "indices", "values"} <= sparse.keys():
         sparse = None  # its schema told; the elements below are there all the same
-    if "bufferView" in accessor.raw:
-        elements.base = _bytes_of(accessor, asset, elements)
+    view = asset.get("bufferViews", accessor.get("bufferView"))
+    if view is not None:
+        elements.base = _bytes_of(accessor, view, asset, elements)
         if elements.base is None:
             return None
     elif sparse is None:
@@ -121,10 +122,7 @@ def _packed(part: Entry, count: int, shape: Elements, asset: Asset) -> Any:
     return None if data is None else cast(data, shape.component)
 
 
-def _bytes_of(accessor: Entry, asset: Asset, elements: Elements) -> memoryview | None:
-    view = asset.get("bufferViews", accessor.get("bufferView"))
-    if view is None:
-        return None
+def _bytes_of(accessor: Entry, view: Entry, asset: Asset, elements: Elements) -> memoryview | None:
     stride = view.get("byteStride", elements.stride)
     if stride < elements.used or stride % elements.size:
         return None

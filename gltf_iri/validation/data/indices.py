@@ -9,7 +9,7 @@ from gltf_iri.asset.formats import INDEX_FORMATS, INTEGER_RANGES
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.data.access import blocks, elements_of
 from gltf_iri.validation.rules.primitives import accessor_format
-from gltf_iri.validation.tables import sound_value_of
+from gltf_iri.validation.tables import value_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gltf_iri.validation.entry import Entry
     from gltf_iri.validation.issue import Issue
 
-__all__ = ["indices_name_vertices"]
+__all__ = ["count_of_vertices", "indices_name_vertices"]
 
 _TRIANGLES = 4  # the drawing mode of triangle lists (glTF 2.0, §5.24.4)
 
@@ -32,9 +32,9 @@ def indices_name_vertices(primitive: Entry, asset: Asset) -> Iterator[Issue]:
     elements = elements_of(accessor, asset)
     if elements is None:
         return
-    is_list = sound_value_of(primitive, "mode") == _TRIANGLES
+    is_list = value_of(primitive, "mode") == _TRIANGLES  # also where the mode is none
     largest, degenerate = _summary(accessor, elements, asset, is_list=is_list)
-    vertices = _count_of_vertices(primitive, asset)
+    vertices = count_of_vertices(primitive, asset)
     restart = INTEGER_RANGES[elements.component][1]
     if largest >= vertices or largest == restart:
         yield from _faulty(primitive, elements, asset, vertices, restart)
@@ -47,7 +47,7 @@ def indices_name_vertices(primitive: Entry, asset: Asset) -> Iterator[Issue]:
         )
 
 
-def _count_of_vertices(primitive: Entry, asset: Asset) -> int:
+def count_of_vertices(primitive: Entry, asset: Asset) -> int:
     """Return the count of the first attribute that has one: others with another were told of."""
     for index in primitive.get("attributes", {}).values():
         accessor = asset.get("accessors", index)

@@ -44,7 +44,8 @@ def times_increase(sampler: Entry, asset: Asset) -> Iterator[Issue]:
         for index, time in enumerate(times, first):
             if time < 0.0:
                 yield issue("ACCESSOR_ANIMATION_INPUT_NEGATIVE", pointer, index=index, value=time)
-            if index and time <= previous:
+                continue  # and the next is compared with the one before it
+            if time <= previous:
                 code = "ACCESSOR_ANIMATION_INPUT_NON_INCREASING"
                 yield issue(code, pointer, index=index, value=time, previous=previous)
             previous = time

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import hypot
+from math import hypot, sqrt
 from typing import TYPE_CHECKING
 
 from gltf_iri.asset.formats import ATTRIBUTE_FORMATS, FLOAT, QUANTIZED_ATTRIBUTE_FORMATS
@@ -73,7 +73,8 @@ def _lengths(columns: list[list[float]], first: int, width: int, pointer: str) -
     lengths = list(map(hypot, *columns))
     if max(lengths) <= 1.0 + _LARGEST_LENGTH_ERROR and min(lengths) >= 1.0 - _LARGEST_LENGTH_ERROR:
         return  # or the first is NaN, and those behind it are looked at one by one
-    for element, length in enumerate(lengths, first):
+    for element, vector in enumerate(zip(*columns, strict=True), first):
+        length = sqrt(sum(value * value for value in vector))  # unlike hypot, NaN where one of them is
         if abs(length - 1.0) > _LARGEST_LENGTH_ERROR:
             start = width * element
             yield issue(

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.data.access import blocks
+from gltf_iri.validation.data.indices import count_of_vertices
 from gltf_iri.validation.data.normalised import columns_of
 from gltf_iri.validation.data.vertices import attribute_elements
 from gltf_iri.validation.rules.attributes import attribute_names, count_of_sets
@@ -39,7 +40,7 @@ def weights_of_joints_add_up(primitive: Entry, asset: Asset) -> Iterator[Issue]:
     joints = [attribute_elements(primitive, f"JOINTS_{number}", asset) for number in range(sets)]
     weights = [attribute_elements(primitive, f"WEIGHTS_{number}", asset) for number in range(sets)]
     parts = [part for part in (*joints, *weights) if part is not None]
-    if len(parts) < 2 * sets or len({part.count for part in parts}) > 1:
+    if len(parts) < 2 * sets or {part.count for part in parts} != {count_of_vertices(primitive, asset)}:
         return
     name = ("weights", (*parts, skin[0]))
     if name in asset.resources.found:
@@ -80,8 +81,9 @@ class _Vertices:
 
     def __init__(self, joints: list[Elements], weights: list[Elements], first: int) -> None:
         self.first = first
-        self.joints: list[_Column] = [column for part in joints for column in part.columns(first)]
-        self.weights: list[_Column] = [column for part in weights for column in columns_of(part, first)]
+        # All sets' first components, then their second ones: the order in which they are looked at.
+        self.joints: list[_Column] = _interleaved([part.columns(first) for part in joints])
+        self.weights: list[_Column] = _interleaved([columns_of(part, first) for part in weights])
 
     def are_sound(self, joint_count: int) -> bool:
         """Whether nothing is wrong with any vertex of the block."""
@@ -121,6 +123,10 @@ class _Vertices:
             yield from _faults(primitive, self.first + offset, joints, weights, joint_count, skin)
 
 
+def _interleaved(sets: list[list[_Column]]) -> list[_Column]:
+    return [column for columns in zip(*sets, strict=True) for column in columns]
+
+
 def _faults(
     primitive: Entry,
     vertex: int,
@@ -130,9 +136,9 @@ def _faults(
     skin: int,
 ) -> Iterator[Issue]:
     """Tell what is wrong with one vertex; what is told of a weight, or its joint, keeps it from the sum."""
-    total, count, seen = 0.0, 0, set()
+    total, count, seen, sets = 0.0, 0, set(), len(joints) // 4
     for place, (joint, weight) in enumerate(zip(joints, weights, strict=True)):
-        number, component = divmod(place, 4)
+        component, number = divmod(place, sets)
         at: dict[str, Any] = {"index": 4 * vertex + component, "component": component, "value": joint}
         pointer = primitive.at("attributes", f"JOINTS_{number}")
         if joint >= joint_count:
@@ -153,6 +159,6 @@ def _faults(
                 count += 1
             seen.add(joint)
     if abs(total - 1.0) > _SUM_ERROR_PER_WEIGHT * count:
-        for number in range(len(joints) // 4):
+        for number in range(sets):
             pointer, first = primitive.at("attributes", f"WEIGHTS_{number}"), 4 * vertex
             yield issue("ACCESSOR_WEIGHTS_NON_NORMALIZED", pointer, first=first, last=first + 3, sum=total)
