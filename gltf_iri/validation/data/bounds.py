@@ -115,7 +115,8 @@ def _compare(
             if actual[place] != declared:
                 pointer = accessor.at(key, place)
                 yield issue(f"ACCESSOR_{code}_MISMATCH", pointer, declared=declared, actual=actual[place])
-                if actual[place] < declared if key == "min" else actual[place] > declared:
+                # Where the first value is NaN, so is what was found, and those behind it may be beyond.
+                if not (actual[place] > declared if key == "min" else actual[place] < declared):
                     beyond.append((f"ACCESSOR_ELEMENT_OUT_OF_{code}_BOUND", key, place, declared))
     counts = [0] * len(beyond)
     for first in blocks(elements, asset, accessor.pointer) if beyond else ():
@@ -124,7 +125,8 @@ def _compare(
             compare = gt if key == "min" else lt
             counts[number] += sum(map(compare, repeat(bound), columns[place]))
     for count, (code, key, place, bound) in zip(counts, beyond, strict=True):
-        yield issue(code, accessor.at(key, place), count=count, bound=bound)
+        if count:
+            yield issue(code, accessor.at(key, place), count=count, bound=bound)
 
 
 def _single(value: float) -> float:

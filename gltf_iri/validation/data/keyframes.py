@@ -34,10 +34,11 @@ def times_increase(sampler: Entry, asset: Asset) -> Iterator[Issue]:
     elements = elements_of(accessor, asset)
     if elements is None or ("times", accessor) in asset.resources.found:
         return
-    pointer, previous, is_clean = sampler.at("input"), -1.0, True
+    pointer, previous, is_clean = sampler.at("input"), 0.0, True
     for first in blocks(elements, asset, accessor.pointer):
         times = elements.columns(first)[0]
-        if times[0] >= 0.0 and times[0] > previous and all(map(lt, times, times[1:])):
+        starts_well = times[0] > previous if first else times[0] >= 0.0
+        if starts_well and all(map(lt, times, times[1:])):
             previous = times[-1]
             continue
         is_clean = False
@@ -45,7 +46,7 @@ def times_increase(sampler: Entry, asset: Asset) -> Iterator[Issue]:
             if time < 0.0:
                 yield issue("ACCESSOR_ANIMATION_INPUT_NEGATIVE", pointer, index=index, value=time)
                 continue  # and the next is compared with the one before it
-            if time <= previous:
+            if index and time <= previous:
                 code = "ACCESSOR_ANIMATION_INPUT_NON_INCREASING"
                 yield issue(code, pointer, index=index, value=time, previous=previous)
             previous = time
