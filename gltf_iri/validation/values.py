@@ -10,7 +10,7 @@ from gltf_iri.asset.words import shown
 if TYPE_CHECKING:
     from gltf_iri.validation.tables import Field
 
-__all__ = ["BROKEN", "WANTED", "complaint", "is_unlisted", "typed"]
+__all__ = ["BROKEN", "WANTED", "complaint", "interval", "is_unlisted", "typed"]
 
 # Stands for a value that was told of already.
 BROKEN: Any = object()
@@ -57,7 +57,7 @@ def complaint(field: Field, value: Any) -> tuple[str, dict[str, Any]] | None:
         return "PATTERN_MISMATCH", {"value": shown(value), "pattern": field.pattern.pattern}
     if kind == "FLAG" or _is_in_range(field, value):
         return None
-    return "VALUE_NOT_IN_RANGE", {"value": shown(value), "range": _interval(field)}
+    return "VALUE_NOT_IN_RANGE", {"value": shown(value), "range": interval(field)}
 
 
 def is_unlisted(field: Field, value: Any) -> bool:
@@ -76,6 +76,7 @@ def _is_in_range(field: Field, value: float) -> bool:
     return -math.inf < value < math.inf if field.high is None else value <= field.high
 
 
-def _interval(field: Field) -> str:
+def interval(field: Field) -> str:
+    """Return the legal numbers of a field as people write them, such as "[1, ∞)"."""
     low = "(−∞" if field.low is None else f"{'(' if field.low_is_excluded else '['}{field.low:g}"
     return f"{low}, {'∞)' if field.high is None else f'{field.high:g}]'}"

@@ -14,6 +14,9 @@ from gltf_iri.validation.issue import Issue
 
 __all__ = ["effects"]
 
+# Keeps the end of a band a number where one index is 10¹⁶ times the other.
+_LEAST_GAP = 1e-16
+
 # The ends of the CIE 1931 observer's table, which the text's colour integral runs over.
 _SEEN_NM = (360.0, 830.0)
 
@@ -107,7 +110,7 @@ def _band(
     shortest, longest = min(periods_nm) * mean_ior, max(periods_nm) * mean_ior
     low_nm, high_nm = _SEEN_NM
     contrast = 2.0 / math.pi * math.asin(abs(ior2 - ior1) / (ior1 + ior2))
-    end_nm = 2.0 * longest * (1.0 / (1.0 - contrast) + 1.0 / cells)
+    end_nm = 2.0 * longest * (1.0 / max(1.0 - contrast, _LEAST_GAP) + 1.0 / cells)
     if end_nm < low_nm:
         width = 2.0 * (end_nm - 2.0 * longest)
         yield issue("IRI_BRAGG_BAND_INVISIBLE", pointer, nm=2.0 * longest, width=width, end=low_nm)
