@@ -10,10 +10,16 @@ __all__ = ["DataUri", "InvalidUriError", "Link", "read_uri"]
 _SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.\-]*")
 _AUTHORITY = re.compile(r"(?:[^@]*@)?(\[[^\]]*\]|[^:\[\]@]*)(?::-?[0-9]*)?")
 _ESCAPE = re.compile(rb"%([0-9A-Fa-f]{2})")
+_ESCAPES = re.compile(rb"(?:%[0-9A-Fa-f]{2})+")
 # What a path may hold as it is (RFC 3986 §3.3); "%" is looked at by itself.
 _TO_ESCAPE = re.compile(rb"[^A-Za-z0-9\-._~!$&'()*+,;=:@/%?#]|%(?![0-9A-Fa-f]{2})")
 _UNRESERVED = frozenset(b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~")
 _ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"
+# Twice what Linux takes as a path, each byte percent-encoded.
+_LONGEST_LINK = 24_576
+
+_PART = 65_536
+
 # RFC 2397: what a data URI without media type holds.
 _DEFAULT_MEDIA_TYPE = "text/plain"
 
@@ -50,6 +56,8 @@ def read_uri(text: str) -> DataUri | Link:
 
 
 def _read_link(text: str) -> Link:
+    if len(text) > _LONGEST_LINK:
+        raise InvalidUriError(f"it has more than {_LONGEST_LINK} characters, and no file is called so")
     text = text.replace("\\", "/")  # as browsers read them; the guard refuses what leaves the folder
     end = re.search(r"[/?#]|$", text).start()  # type: ignore[union-attr]  # the end of the text always matches
     scheme, colon, _ = text[:end].partition(":")
@@ -126,7 +134,21 @@ def _read_data(text: str) -> DataUri:
 
 def _unescaped(text: str) -> bytes:
     raw = text.encode("utf-8", "surrogatepass")
-    return _ESCAPE.sub(lambda match: bytes((int(match[1], 16),)), raw) if b"%" in raw else raw
+    if b"%" not in raw:
+        return raw
+    # In parts, because a match takes more memory than its bytes; none ends within an escape.
+    parts, start = [], 0
+    while start < len(raw):
+        end = start + _PART
+        cut = raw.rfind(b"%", end - 2, end) if end < len(raw) else -1
+        end = end if cut < 0 else cut
+        parts.append(_ESCAPES.sub(_decoded, raw[start:end]))
+        start = end
+    return b"".join(parts)
+
+
+def _decoded(match: re.Match[bytes]) -> bytes:
+    return bytes.fromhex(match[0].replace(b"%", b"").decode("ascii"))
 
 
 def _from_base64(text: str) -> bytes:
@@ -144,6 +166,6 @@ def _from_base64(text: str) -> bytes:
     if len(text) == digits:
         text += "=" * (-digits % 4)
     try:
-        return binascii.a2b_base64(text.encode("ascii"), strict_mode=True)
-    except (binascii.Error, UnicodeEncodeError) as error:
+        return binascii.a2b_base64(text, strict_mode=True)
+    except ValueError as error:
         raise InvalidUriError("its base64 has characters that do not belong") from error

@@ -38,8 +38,8 @@ def test_numbers_beyond_what_the_bytes_vouch_for_are_told_once_and_left(
     data.accessor("SCALAR", UNSIGNED_BYTE, [1] * 64, max=[1])
     data.accessors += [data.accessors[0]] * 20
     found = [(i.code, i.pointer) for i in judge(data.asset).issues if i.code != "UNUSED_OBJECT"]
-    # 64 bytes vouch for 512 numbers, eight accessors; of the eight that nobody looks at, one remark.
-    assert found == [("IRI_DATA_NOT_CHECKED", "/accessors/8")]
+    # 64 bytes vouch for 256 numbers, four accessors; of those that nobody looks at, one is told.
+    assert found == [("IRI_DATA_NOT_CHECKED", "/accessors/4")]
 
 
 def test_what_primitives_share_is_looked_at_once(codes: Codes, monkeypatch: pytest.MonkeyPatch) -> None:

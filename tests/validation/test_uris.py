@@ -6,6 +6,7 @@ import pytest
 from conftest import Codes
 from small_data import binary
 
+from gltf_iri.validation import uris
 from gltf_iri.validation.uris import DataUri, InvalidUriError, Link, read_uri
 
 OCTETS = "data:application/octet-stream;base64,"
@@ -113,3 +114,19 @@ def test_a_glb_tells_of_every_uri_and_twice_of_data(codes: Codes) -> None:
         ("DATA_URI_GLB", "/buffers/1/uri"),
     }
     assert codes(asset, resources=False) == set()
+
+
+@pytest.mark.parametrize("part", range(3, 9))
+def test_escapes_are_undone_wherever_a_part_of_the_data_ends(
+    part: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(uris, "_PART", part)
+    uri = read_uri("data:,%41%4%42%%43zz%4g%44%45%4")
+    assert isinstance(uri, DataUri)
+    assert uri.data == b"A%4B%Czz%4gDE%4"
+
+
+def test_a_uri_longer_than_any_path_is_none() -> None:
+    assert isinstance(read_uri("a" * 20_000), Link)
+    with pytest.raises(InvalidUriError):
+        read_uri("a" * 30_000)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from gltf_iri.validation.asset import Asset
     from gltf_iri.validation.entry import Entry
 
-__all__ = ["blocks", "elements_of", "increasing", "sparse_indices"]
+__all__ = ["blocks", "elements_of", "sparse_indices", "tell_unread"]
 
 # Elements at a time where sparse indices are compared with their neighbours.
 _STEP = 1 << 16
@@ -23,8 +23,8 @@ _STEP = 1 << 16
 # How many numbers are looked at: each byte of the buffers so often, as if it were a number of its own, and
 # some that no byte stands for. Sound files have each float looked at twice; the rest is room for accessors
 # that many primitives share. Together they take a second for a hostile file of some kilobytes.
-_NUMBERS_PER_BYTE = 8
-_UNVOUCHED_NUMBERS = 1 << 22
+_NUMBERS_PER_BYTE = 4
+_UNVOUCHED_NUMBERS = 1 << 21
 
 
 def elements_of(accessor: Entry | None, asset: Asset) -> Elements | None:
@@ -43,17 +43,25 @@ def elements_of(accessor: Entry | None, asset: Asset) -> Elements | None:
 
 def blocks(elements: Elements, asset: Asset, pointer: str) -> range:
     """Return the first element of every block; none where the file has had enough numbers looked at."""
+    return elements.starts() if _spend(elements.count * elements.width, asset, pointer) else range(0)
+
+
+def _spend(numbers: int, asset: Asset, pointer: str) -> bool:
+    """Account for numbers that are about to be looked at; tell once that no more are."""
     resources = asset.resources
-    numbers = elements.count * elements.width
-    resources.numbers += numbers
     allowed = _UNVOUCHED_NUMBERS + _NUMBERS_PER_BYTE * resources.buffer_bytes
     if resources.numbers <= allowed:
-        return elements.starts()
-    if resources.numbers - numbers <= allowed:
-        reason = f"{allowed} are the most for {resources.buffer_bytes} bytes of buffers"
-        asset.collector.add(issue("IRI_DATA_NOT_CHECKED", pointer, reason=reason))
-        resources.numbers = allowed + 1
-    return range(0)
+        resources.numbers += numbers
+        if resources.numbers <= allowed:
+            return True
+        most = f"{allowed} are the most for {resources.buffer_bytes} bytes of buffers"
+        tell_unread(asset, pointer, f"{most}; from here on nothing is looked at")
+    return False
+
+
+def tell_unread(asset: Asset, pointer: str, reason: str) -> None:
+    """Tell that the numbers at `pointer` are not looked at, because so many are the most."""
+    asset.collector.add(issue("IRI_DATA_NOT_CHECKED", pointer, reason=reason))
 
 
 def _read(accessor: Entry, asset: Asset) -> Elements | None:
@@ -76,33 +84,45 @@ def _read(accessor: Entry, asset: Asset) -> Elements | None:
     elif sparse is None:
         return None
     elif elements.count > MAX_BUFFERLESS_COUNT:
-        reason = f"of an accessor without buffer view, {MAX_BUFFERLESS_COUNT} elements are the most"
-        asset.collector.add(issue("IRI_DATA_NOT_CHECKED", accessor.at("count"), reason=reason))
+        most = f"of an accessor without buffer view, {MAX_BUFFERLESS_COUNT} elements are the most"
+        tell_unread(asset, accessor.at("count"), most)
         return None
     if sparse is not None:
         if sparse["count"] > elements.count:
             return None
-        indices = sparse_indices(accessor, asset)
+        indices, increasing = sparse_indices(accessor, asset)
         values = _packed(sparse["values"], sparse["count"], elements, asset)
         if indices is None or values is None:
             return None
-        elements.replace(indices, increasing(indices, elements.count), values)
+        elements.replace(indices, increasing, values)
     return elements
 
 
-def sparse_indices(accessor: Entry, asset: Asset) -> Any:
-    """Return the numbers of the elements that an accessor's sparse part replaces; None where unreadable."""
+def sparse_indices(accessor: Entry, asset: Asset) -> tuple[Any, int]:
+    """Return the numbers of the elements that an accessor replaces, and how many of them from the first on
+    increase and are such numbers; None and 0 where they cannot be read.
+    """
+    found = asset.resources.found
+    name = ("sparse", accessor)
+    if name not in found:
+        indices = _sparse_indices(accessor, asset)
+        found[name] = (indices, 0 if indices is None else _increasing(indices, accessor.get("count", 0)))
+    known: tuple[Any, int] = found[name]
+    return known
+
+
+def _sparse_indices(accessor: Entry, asset: Asset) -> Any:
     sparse = accessor.get("sparse")
     if sparse is None or not {"count", "indices", "values"} <= sparse.keys():
         return None
     if "componentType" not in sparse["indices"]:
         return None
     shape = Elements("SCALAR", sparse["indices"]["componentType"], sparse["count"])
-    return _packed(sparse["indices"], sparse["count"], shape, asset)
+    indices = _packed(sparse["indices"], sparse["count"], shape, asset)
+    return indices if indices is not None and _spend(len(indices), asset, sparse.pointer) else None
 
 
-def increasing(indices: Any, count: int) -> int:
-    """Return how many indices from the first on increase and are below `count`: all, in a sound file."""
+def _increasing(indices: Any, count: int) -> int:
     previous = -1
     for start in range(0, len(indices), _STEP):
         block = indices[start : start + _STEP].tolist()

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from gltf_iri.asset.formats import FLOAT
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.data.access import blocks, elements_of, increasing, sparse_indices
+from gltf_iri.validation.data.access import blocks, elements_of, sparse_indices
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,8 +29,9 @@ _SUSPECT_BYTES = (b"\x7f", b"\xff")
 
 def sparse_indices_increase(accessor: Entry, asset: Asset) -> Iterator[Issue]:
     """Tell of sparse indices that do not increase, or are beyond the accessor."""
-    count, indices = accessor.get("count"), sparse_indices(accessor, asset)
-    if count is None or indices is None or increasing(indices, count) == len(indices):
+    count = accessor.get("count")
+    indices, increasing = sparse_indices(accessor, asset)
+    if count is None or indices is None or increasing == len(indices):
         return
     pointer, previous = accessor.at("sparse"), -1
     for position, index in enumerate(indices):

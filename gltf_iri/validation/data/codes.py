@@ -11,7 +11,7 @@ DATA_CODES: dict[str, tuple[int, str]] = {
     # A kilobyte of JSON can have a thousand million numbers looked at that no byte of a file stands for.
     "IRI_DATA_NOT_CHECKED": (
         WARNING,
-        "From here on numbers are not looked at: {reason}.",
+        "These numbers are not looked at: {reason}.",
     ),
 }
 

@@ -97,10 +97,14 @@ class Elements:
             numbers = cast(self.base[first * self.stride : last * self.stride + self.used], self.component)
             step = self.stride // self.size
             columns = [numbers[place::step].tolist() for place in self.places]
-        for position in self._span(first):
-            element, start = self._indices[position] - first, position * self.packed
+        span = self._span(first)
+        if span:
+            elements = [index - first for index in self._indices[span.start : span.stop].tolist()]
             for column, place in zip(columns, self.places, strict=True):
-                column[element] = self._values[start + place]
+                start = span.start * self.packed + place
+                values = self._values[start : span.stop * self.packed : self.packed].tolist()
+                for element, value in zip(elements, values, strict=True):
+                    column[element] = value
         return columns
 
     def _span(self, first: int) -> range:

@@ -8,7 +8,7 @@ from operator import add, eq, mul, not_
 from typing import TYPE_CHECKING, Any
 
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.data.access import blocks
+from gltf_iri.validation.data.access import blocks, tell_unread
 from gltf_iri.validation.data.indices import count_of_vertices
 from gltf_iri.validation.data.normalised import columns_of
 from gltf_iri.validation.data.vertices import attribute_elements
@@ -27,6 +27,12 @@ __all__ = ["weights_of_joints_add_up"]
 # glTF 2.0, §3.7.3.3: the sum of a vertex' weights may be off by so much for each of them that is not 0.
 _SUM_ERROR_PER_WEIGHT = 2e-7
 
+# Numbers of one block of vertices are held at once: of these sets, some 50 MB. Real models have one or two.
+_MOST_SETS = 16
+
+# From so many joints on, comparing each with each takes longer than gathering those of every vertex.
+_MANY_JOINTS = 16
+
 _Column = list[Any]
 
 
@@ -36,6 +42,9 @@ def weights_of_joints_add_up(primitive: Entry, asset: Asset) -> Iterator[Issue]:
     names = attribute_names(primitive)
     sets = count_of_sets(names, "JOINTS")
     if skin is None or not sets or count_of_sets(names, "WEIGHTS") != sets:
+        return
+    if sets > _MOST_SETS:
+        tell_unread(asset, primitive.at("attributes"), f"{_MOST_SETS} sets of joints are the most")
         return
     joints = [attribute_elements(primitive, f"JOINTS_{number}", asset) for number in range(sets)]
     weights = [attribute_elements(primitive, f"WEIGHTS_{number}", asset) for number in range(sets)]
@@ -89,7 +98,8 @@ class _Vertices:
         """Whether nothing is wrong with any vertex of the block."""
         pairs = list(zip(self.joints, self.weights, strict=True))
         return (
-            all(max(column) < joint_count for column in self.joints)
+            len(pairs) < _MANY_JOINTS
+            and all(max(column) < joint_count for column in self.joints)
             and all(min(column) >= 0.0 for column in self.weights)
             and not any(any(compress(joints, map(not_, weights))) for joints, weights in pairs)
             and not any(
