@@ -6,6 +6,7 @@ indices live on without it, so that what refers to the other items stays right.
 
 from __future__ import annotations
 
+import math
 from typing import TYPE_CHECKING
 
 from gltf_iri.asset.formats import COMPONENT_BYTES, TYPE_SHAPE
@@ -93,12 +94,22 @@ def _index(walk: Walk, value: Any, pointer: str, key: str | int) -> int | None:
 
 
 def _numbers(walk: Walk, field: Field, values: list[Any], pointer: str, entry: Entry) -> Any:
+    if not field.has_range and _are_finite(values):
+        return list(values)
     numbers = [_item(walk, field, value, pointer) for value in values]
     for position, number in enumerate(numbers):
         wrong = complaint(field, number) if number is not BROKEN else None
         if wrong is not None:
             numbers[position] = walk.wrong(wrong, f"{pointer}/{position}")
     return BROKEN if BROKEN in numbers else numbers
+
+
+def _are_finite(values: list[Any]) -> bool:
+    """Tell at once what is true of nearly every array of numbers."""
+    try:
+        return set(map(type, values)) <= {int, float} and all(map(math.isfinite, values))
+    except OverflowError:  # an integer beyond the largest double
+        return False
 
 
 def _texts(walk: Walk, field: Field, values: list[Any], pointer: str, entry: Entry) -> Any:

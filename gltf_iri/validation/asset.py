@@ -45,6 +45,7 @@ class Asset:
         binary: memoryview | None,
     ) -> None:
         self.root = root
+        self._arrays: dict[str, list[Entry | None]] = {}
         self.entries = walk.entries
         self.references = walk.references
         self.collector = collector
@@ -63,9 +64,11 @@ class Asset:
 
     def array(self, name: str) -> list[Entry | None]:
         """Return the array that indices of `name` mean: "meshes", or "KHR_lights_punctual.lights"."""
-        extension, _, key = name.rpartition(".")
-        holder = self.root.extensions.get(extension) if extension else self.root
-        found: list[Entry | None] = holder.get(key, []) if holder is not None else []
+        found = self._arrays.get(name)
+        if found is None:
+            extension, _, key = name.rpartition(".")
+            holder = self.root.extensions.get(extension) if extension else self.root
+            found = self._arrays[name] = holder.get(key, []) if holder is not None else []
         return found
 
     def get(self, name: str, index: int | None) -> Entry | None:

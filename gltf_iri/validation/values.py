@@ -29,6 +29,8 @@ def typed(kind: str, value: Any) -> Any:
     """Return the value where it has the type of `kind`, else BROKEN; 1.0 is an integer, as it is for JSON."""
     if kind == "TEXT":
         return value if isinstance(value, str) else BROKEN
+    if type(value) is int and kind != "FLAG":
+        return value
     if kind == "FLAG":
         return value if isinstance(value, bool) else BROKEN
     if isinstance(value, bool) or not isinstance(value, (int, float)):
