@@ -39,7 +39,7 @@ def validate_files(
     with ExitStack() as held:
         files, keep, has_errors = found.files, None, False
         if kept is not None:
-            from gltf_iri.validation.results_file import ResultsFile
+            from gltf_iri.validation.many.results_file import ResultsFile
 
             results = held.enter_context(ResultsFile(kept, is_resumed=is_resumed))
             files = [file for file in files if file not in results.done]

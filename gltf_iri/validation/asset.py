@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING
 
 from gltf_iri.validation.collector import Collector
 from gltf_iri.validation.entry import Entry
+from gltf_iri.validation.files.resources import Resources
 from gltf_iri.validation.options import Options
-from gltf_iri.validation.resources import Resources
+from gltf_iri.validation.schema.trees import Trees
+from gltf_iri.validation.schema.walk import Walk
 from gltf_iri.validation.tables import EXTENSIONS
-from gltf_iri.validation.trees import Trees
-from gltf_iri.validation.walk import Walk
 
 if TYPE_CHECKING:
-    from gltf_iri.validation.image_info import ImageInfo
+    from gltf_iri.validation.files.image_info import ImageInfo
 
 __all__ = ["Asset"]
 

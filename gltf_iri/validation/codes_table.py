@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from gltf_iri.validation.codes import CODES
 from gltf_iri.validation.codes_of_links import CODES_OF_LINKS
 from gltf_iri.validation.codes_of_objects import CODES_OF_OBJECTS
-from gltf_iri.validation.iridescence_codes import IRIDESCENCE_REASONS
+from gltf_iri.validation.iridescence.codes import IRIDESCENCE_REASONS
 from gltf_iri.validation.issue import SEVERITY_NAMES
 
 __all__ = ["OWN", "as_text", "codes_markdown", "every_code", "rows"]
@@ -75,8 +75,8 @@ def codes_markdown() -> str:
 
 def _load_own() -> None:
     # These bring codes of their own.
-    from gltf_iri.validation import many as _many  # noqa: F401
     from gltf_iri.validation import validate as _validate  # noqa: F401
+    from gltf_iri.validation.many import many as _many  # noqa: F401
 
 
 def _table(codes: Iterable[str]) -> Iterator[str]:

@@ -10,9 +10,9 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gltf_iri.validation import reading_codes as _codes  # noqa: F401  # makes them known
 from gltf_iri.validation.codes import add_codes, issue
 from gltf_iri.validation.issue import SEVERITIES
+from gltf_iri.validation.reading import codes as _codes  # noqa: F401  # makes them known
 from gltf_iri.validation.rules.registry import add_data_rules, add_rules
 from gltf_iri.validation.tables import TABLES, add_tables
 

@@ -114,7 +114,7 @@ def _kept(judged: Judged, keep: Keep | None) -> Judged:
 def _judge_many(
     files: Sequence[str], options: Options, jobs: int, scheduler: str | None, keep: Keep | None
 ) -> Iterator[Judged]:
-    from gltf_iri.validation.many import validate_many
+    from gltf_iri.validation.many.many import validate_many
 
     for result in validate_many(files, options, jobs=jobs, scheduler=scheduler):
         if keep is not None:

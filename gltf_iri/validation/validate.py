@@ -11,18 +11,18 @@ from gltf_iri.asset.limits import MAX_FILE_BYTES
 from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.collector import Collector, EnoughError
-from gltf_iri.validation.images import check_images
+from gltf_iri.validation.files.images import check_images
+from gltf_iri.validation.files.resources import check_resources
 from gltf_iri.validation.info import asset_info
-from gltf_iri.validation.links import check_links
 from gltf_iri.validation.options import Options
 from gltf_iri.validation.plugins import load_plugins
-from gltf_iri.validation.reading import Reading, read
+from gltf_iri.validation.reading.read import Reading, read
 from gltf_iri.validation.report import Report
-from gltf_iri.validation.resources import check_resources
 from gltf_iri.validation.rules import every as _every  # noqa: F401  # registers the rules
 from gltf_iri.validation.rules.registry import DATA_RULES, RULES
-from gltf_iri.validation.usage import check_usage
-from gltf_iri.validation.walk import Walk
+from gltf_iri.validation.schema.links import check_links
+from gltf_iri.validation.schema.usage import check_usage
+from gltf_iri.validation.schema.walk import Walk
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -72,7 +72,7 @@ OPENERS = {
     "planning/costs.py",  # the program's own map of costs
     "validation/plugins.py",  # which installed packages bring rules
     "validation/tables.py",  # the program's own tables
-    "validation/results_file.py",  # the results of a run that may be broken off and go on
+    "validation/many/results_file.py",  # the results of a run that may be broken off and go on
     "cli/ending.py",  # the null device
     "generate.py",  # the checkout that it runs in
 }

@@ -80,7 +80,7 @@ def test_bytes_of_a_buffer_are_let_go_with_its_report(judge: Judge) -> None:
     import gc
     import weakref
 
-    from gltf_iri.validation.resources import Resources
+    from gltf_iri.validation.files.resources import Resources
 
     alive: list[weakref.ref[Resources]] = []
     real = Resources.load

@@ -23,8 +23,8 @@ from small_pictures import (
     vp8x,
 )
 
-from gltf_iri.validation.image_info import ImageDataError, ImageEndError, ImageInfo, Segments
-from gltf_iri.validation.images import read_image
+from gltf_iri.validation.files.image_info import ImageDataError, ImageEndError, ImageInfo, Segments
+from gltf_iri.validation.files.images import read_image
 
 
 def read(data: bytes) -> ImageInfo:

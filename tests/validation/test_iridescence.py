@@ -16,11 +16,11 @@ from gltf_iri.evaluation.film import Film, base_from_f0
 from gltf_iri.evaluation.fourier import evaluate_fourier
 from gltf_iri.evaluation.incoherent import evaluate_incoherent
 from gltf_iri.evaluation.registry import evaluate
+from gltf_iri.validation.iridescence import images as iridescence_images
+from gltf_iri.validation.iridescence.effect import COHERENCE_NM
+from gltf_iri.validation.iridescence.film import Base
 from gltf_iri.validation.optics import banding
 from gltf_iri.validation.optics.film_colours import COSINES, film_colours
-from gltf_iri.validation.rules import iridescence_images
-from gltf_iri.validation.rules.iridescence_effect import COHERENCE_NM
-from gltf_iri.validation.rules.iridescence_film import Base
 
 NAME = "KHR_materials_iridescence"
 NUMBERS = (

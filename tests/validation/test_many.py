@@ -16,10 +16,10 @@ from typing import Any
 import pytest
 
 from gltf_iri.errors import UsageError
-from gltf_iri.validation import crews
-from gltf_iri.validation.many import FileResult, validate_many
+from gltf_iri.validation.many import crews
+from gltf_iri.validation.many.many import FileResult, validate_many
+from gltf_iri.validation.many.results_file import ResultsFile
 from gltf_iri.validation.options import Options
-from gltf_iri.validation.results_file import ResultsFile
 
 SOUND = {"asset": {"version": "2.0"}}
 FILES = 150

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from gltf_iri.validation.positions import lines_of
+from gltf_iri.validation.reading.positions import lines_of
 
 TEXT = """{
   "asset": { "version": "2.0" },

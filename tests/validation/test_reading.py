@@ -7,7 +7,7 @@ import json
 import pytest
 
 from gltf_iri.validation.options import Options
-from gltf_iri.validation.reading import is_binary, json_bytes
+from gltf_iri.validation.reading.read import is_binary, json_bytes
 from gltf_iri.validation.rules.registry import RULES
 from gltf_iri.validation.validate import validate
 

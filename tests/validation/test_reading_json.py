@@ -9,7 +9,7 @@ import pytest
 from gltf_iri.asset.limits import MAX_JSON_DEPTH
 from gltf_iri.errors import AssetError
 from gltf_iri.scene.load import load
-from gltf_iri.validation import json_text
+from gltf_iri.validation.reading import json_text
 
 ASSET = '{"asset":{"version":"2.0"}}'
 

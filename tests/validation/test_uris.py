@@ -6,8 +6,8 @@ import pytest
 from conftest import Codes
 from small_data import binary
 
-from gltf_iri.validation import uris
-from gltf_iri.validation.uris import DataUri, InvalidUriError, Link, read_uri
+from gltf_iri.validation.files import uris
+from gltf_iri.validation.files.uris import DataUri, InvalidUriError, Link, read_uri
 
 OCTETS = "data:application/octet-stream;base64,"
 

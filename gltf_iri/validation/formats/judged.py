@@ -60,7 +60,7 @@ class Judged:
         # A GLB's JSON has lines too, but nobody can open the file there.
         if not wanted or self.report.get("mimeType") != "model/gltf+json":
             return [None] * len(pointers)
-        from gltf_iri.validation.positions import lines_of
+        from gltf_iri.validation.reading.positions import lines_of
 
         try:
             data = read_given(Path(self.path), MAX_JSON_BYTES) if self.data is None else self.data

@@ -10,7 +10,7 @@ from gltf_iri.errors import UsageError
 from gltf_iri.validation.optics.film_colours import bases_of, film_colours, largest_difference
 
 if TYPE_CHECKING:
-    from gltf_iri.validation.rules.iridescence_film import Film
+    from gltf_iri.validation.iridescence.film import Film
 
 __all__ = ["largest_step"]
 

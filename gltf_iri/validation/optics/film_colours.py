@@ -19,7 +19,7 @@ from gltf_iri.evaluation.khr_guarded import MAX_F0
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from gltf_iri.validation.rules.iridescence_film import Base, Film
+    from gltf_iri.validation.iridescence.film import Base, Film
 
     Float64 = NDArray[np.float64]
 

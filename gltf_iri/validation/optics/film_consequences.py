@@ -24,8 +24,8 @@ from gltf_iri.validation.optics.film_colours import (
 )
 
 if TYPE_CHECKING:
+    from gltf_iri.validation.iridescence.film import Base, Film
     from gltf_iri.validation.issue import Issue
-    from gltf_iri.validation.rules.iridescence_film import Base, Film
 
 __all__ = ["with_consequence"]
 

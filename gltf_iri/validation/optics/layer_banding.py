@@ -11,7 +11,7 @@ from gltf_iri.validation.optics.film_colours import largest_difference
 from gltf_iri.validation.optics.layer_colours import layer_colours, periods
 
 if TYPE_CHECKING:
-    from gltf_iri.validation.bragg_stack import Layer
+    from gltf_iri.validation.bragg.stack import Layer
 
 __all__ = ["largest_step"]
 

@@ -16,7 +16,7 @@ from gltf_iri.optics.fresnel import f_schlick
 if TYPE_CHECKING:
     from numpy.typing import ArrayLike, NDArray
 
-    from gltf_iri.validation.bragg_stack import Layer, Stack
+    from gltf_iri.validation.bragg.stack import Layer, Stack
 
     Float64 = NDArray[np.float64]
 

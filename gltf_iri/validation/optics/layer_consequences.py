@@ -25,7 +25,7 @@ from gltf_iri.validation.optics.layer_colours import (
 )
 
 if TYPE_CHECKING:
-    from gltf_iri.validation.bragg_stack import Layer, Stack
+    from gltf_iri.validation.bragg.stack import Layer, Stack
     from gltf_iri.validation.issue import Issue
 
 __all__ = ["Consequences"]

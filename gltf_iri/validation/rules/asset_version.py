@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.version import KNOWN, version_key
+from gltf_iri.validation.schema.version import KNOWN, version_key
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
+from gltf_iri.validation.bragg import declared as bragg
+from gltf_iri.validation.iridescence import declared as iridescence
+from gltf_iri.validation.pointers import rules as pointers
+from gltf_iri.validation.pointers import value_rules as pointer_values
 from gltf_iri.validation.rules import (
     accessors,
     animation_pointer,
     animations,
     asset_version,
-    bragg,
     buffer_views,
     cameras,
     claims,
     elements,
     extension_lists,
     inverse_bind_matrices,
-    iridescence,
     lights,
     materials,
     meshes,
     nodes,
-    pointer_values,
-    pointers,
     primitives,
     skinned_meshes,
     skins,

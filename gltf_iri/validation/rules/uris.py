@@ -8,10 +8,10 @@ from gltf_iri.asset.words import shown
 from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
+from gltf_iri.validation.files.media_types import media_type_of
+from gltf_iri.validation.files.uris import DataUri, InvalidUriError, Link, read_uri
 from gltf_iri.validation.issue import Issue
-from gltf_iri.validation.media_types import media_type_of
 from gltf_iri.validation.rules.registry import Rules
-from gltf_iri.validation.uris import DataUri, InvalidUriError, Link, read_uri
 
 __all__ = ["RULES"]
 

@@ -9,7 +9,7 @@ from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.rules.registry import Rules
-from gltf_iri.validation.values import BROKEN, typed
+from gltf_iri.validation.schema.values import BROKEN, typed
 
 __all__ = ["RULES"]
 

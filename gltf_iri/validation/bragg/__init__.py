@@ -1,0 +1,1 @@
+"""EXT_materials_bragg: rules, codes, and the stacks that they look at."""

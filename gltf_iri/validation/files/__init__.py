@@ -1,0 +1,1 @@
+"""What the asset names: buffers and pictures, from URIs, buffer views and the BIN chunk."""

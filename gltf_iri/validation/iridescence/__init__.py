@@ -1,0 +1,1 @@
+"""KHR_materials_iridescence beyond the Khronos checks: rules, codes, and the films that they look at."""

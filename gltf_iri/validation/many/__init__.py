@@ -1,0 +1,1 @@
+"""Many files: sharing them among workers, keeping the results."""

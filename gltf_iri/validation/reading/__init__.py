@@ -1,0 +1,1 @@
+"""Bytes to JSON, with remarks instead of errors."""
