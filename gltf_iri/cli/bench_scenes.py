@@ -1,4 +1,4 @@
-"""`gltf-iri bench` of whole scenes and arrays: what is measured for each name, and how it is printed."""
+"""`gltf-iri bench` of whole scenes, arrays and files: what is measured, and how it is printed."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["WHOLE", "measure_whole"]
 
-WHOLE = ("scenes", "twenty", "image-light", "arrays", "layers", "layers-agreement")
+WHOLE = ("scenes", "twenty", "image-light", "arrays", "layers", "layers-agreement", "validator")
 
 # The rows, and what prints them.
 Measured = tuple[list[Any], Callable[[], None]]
@@ -39,6 +39,10 @@ def measure_whole(name: str, files: Sequence[Path], rounds: int | None, count: i
         from gltf_iri.cli.bench_layers import measure_layers_agreement
 
         return measure_layers_agreement()
+    if name == "validator":
+        from gltf_iri.cli.bench_validator import measure_validator
+
+        return measure_validator(rounds)
     return _image_light() if name == "image-light" else _arrays(count)
 
 
