@@ -1,7 +1,7 @@
-"""Workload `validator`: what a verdict takes, beside the Khronos validator where Node.js and its package are there.
+"""Workload `validator`: what a verdict takes, beside the Khronos validator where Node.js and it are there.
 
-Whole processes, from the call to the exit code, each once a round in turn; and ten thousand small files, by one
-process and by several.
+Whole processes, from the call to the exit code, each once a round in turn; and ten thousand small files, by
+one process and by several.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _MANY_VERTICES: Final = 1_000_000
 
 @dataclass(frozen=True, slots=True)
 class ProcessRow:
-    """One file: milliseconds of a whole process of ours and of theirs, None without Node.js or the package."""
+    """One file: milliseconds of a whole process of ours and of theirs, None where it is not there."""
 
     file: str
     size_bytes: int

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 
 from gltf_iri.bench import validator
@@ -23,9 +21,7 @@ def test_every_file_is_judged() -> None:
     assert row.files_per_s > 0.0
 
 
-def test_theirs_is_left_out_where_it_is_not_installed(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
-) -> None:
+def test_theirs_is_left_out_where_it_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     def absent() -> None:
         raise MissingCapabilityError("It is not there.")
 
