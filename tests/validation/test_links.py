@@ -157,6 +157,19 @@ def test_half_an_animation_refers_to_nothing(missing: str, codes: Codes) -> None
     }
 
 
+@pytest.mark.parametrize("missing", ["count", "type", "componentType"])
+def test_an_accessor_without_a_format_reads_nothing(missing: str, codes: Codes) -> None:
+    accessor = {key: value for key, value in POSITIONS.items() if key not in (missing, "min", "max")}
+    asset = {
+        "accessors": [accessor | {"bufferView": 0}],
+        "bufferViews": [VIEW | {"byteLength": 36}],
+        "buffers": [BUFFER],
+    }
+    assert unused(codes(asset, unused=True)) == {"/accessors/0", "/bufferViews/0"}
+    sound = asset | {"accessors": [POSITIONS | {"bufferView": 0}]}
+    assert unused(codes(sound, unused=True)) == {"/accessors/0"}
+
+
 @pytest.mark.parametrize("missing", ["count", "indices", "values"])
 def test_a_part_of_sparse_values_refers_to_nothing(missing: str, codes: Codes) -> None:
     parts = {key: value for key, value in SPARSE.items() if key != missing}

@@ -136,6 +136,15 @@ FAULTY = {
         bounded(min=["a"]),
         {("ARRAY_LENGTH_NOT_IN_LIST", "/accessors/0/min")},
     ),
+    "no bounds of integers": (
+        bounded(componentType=5121, min=[]),
+        {("ARRAY_LENGTH_NOT_IN_LIST", "/accessors/0/min")},
+    ),
+    "no bounds of floats": (bounded(min=[]), {("EMPTY_ENTITY", "/accessors/0/min")}),
+    "an offset into nothing is not read": (
+        bounded(byteOffset="a"),
+        {("UNSATISFIED_DEPENDENCY", "/accessors/0/byteOffset")},
+    ),
     "bounds of an unknown type are not read": (
         bounded(type="VEC5", min=["a"]),
         {("VALUE_NOT_IN_LIST", "/accessors/0/type")},

@@ -41,6 +41,7 @@ class _Claims:
 
     def view(self, view: Entry, use: str, user: Entry, *keys: str | int) -> Iterator[Issue]:
         """Use a buffer view for `use`; `user` does, at `keys`."""
+        view.is_used = True  # also by an accessor whose own format is broken
         initial = self._views.get(view) or _BY_TARGET.get(view.get("target", 0))
         if initial is None and use in _BY_TARGET.values():
             yield issue("BUFFER_VIEW_TARGET_MISSING", user.at(*keys))

@@ -68,7 +68,9 @@ def weights_fit_morph_targets(root: Entry, asset: Asset) -> Iterator[Issue]:
         mesh = asset.get("meshes", node.get("mesh")) if node is not None else None
         if node is None or mesh is None:
             continue
-        is_read[node["mesh"]] = is_read.get(node["mesh"], False) or "weights" not in node
+        # Of a mesh without primitives nothing is read.
+        reads = "weights" not in node and "primitives" in mesh
+        is_read[node["mesh"]] = is_read.get(node["mesh"], False) or reads
         if "weights" in node and "primitives" in mesh:
             given, wanted = len(node["weights"]), len(mesh["primitives"][0].get("targets", ()))
             if given != wanted:

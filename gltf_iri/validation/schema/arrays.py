@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from gltf_iri.asset.formats import COMPONENT_BYTES, TYPE_SHAPE
+from gltf_iri.asset.formats import COMPONENT_BYTES, FLOAT, TYPE_SHAPE
 from gltf_iri.asset.words import shown
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import join
@@ -35,7 +35,8 @@ def _array(walk: Walk, field: Field, value: Any, entry: Entry) -> Any:
             return BROKEN
     if not isinstance(value, list):
         return walk.mismatch(value, "an array", pointer)
-    if not value:
+    # Bounds of integers are told of by their number, however few there are.
+    if not value and not (field.is_per_component and entry.raw["componentType"] != FLOAT):
         return walk.wrong(("EMPTY_ENTITY", {}), pointer)
     if most is not None and not least <= len(value) <= most:
         allowed = f"{least}" if least == most else f"up to {most}"

@@ -19,12 +19,12 @@ if TYPE_CHECKING:
 
 __all__ = ["check_links", "is_whole"]
 
-# Keyframes without channels play nothing, and sparse values without indices or without elements to replace
-# replace nothing: what they refer to is not used by them.
+# An accessor without a format reads nothing, keyframes without channels play nothing, and sparse values
+# without indices replace nothing: what they refer to is not used by them.
 _ALL_OR_NOTHING = frozenset({"accessor", "accessor.sparse", "animation"})
 _PARTS = frozenset(
     {
-        *("accessor.sparse.indices", "accessor.sparse.values"),
+        *("accessor", "accessor.sparse.indices", "accessor.sparse.values"),
         *("animation.channel", "animation.channel.target", "animation.sampler"),
     }
 )
@@ -47,7 +47,7 @@ def check_links(asset: Asset) -> None:
             continue
         value = entry[field.key]
         # Nearly all references are one index that is right.
-        if isinstance(value, int) and value < len(targets) and entry.table not in _PARTS:
+        if isinstance(value, int) and value < len(targets) and not _is_dead(entry):
             target = targets[value]
             if target is not None:
                 target.is_used = target.is_used or field.counts_as_use
@@ -62,8 +62,8 @@ def is_whole(entry: Entry) -> bool:
 
 
 def _is_dead(entry: Entry) -> bool:
-    """Tell whether the object is a part of one that means nothing, because other parts are missing."""
-    holder = entry.parent if entry.table in _PARTS else None
+    """Tell whether the object, or one that holds it, means nothing because parts of it are missing."""
+    holder: Entry | None = entry if entry.table in _PARTS else None
     while holder is not None:
         if holder.table in _ALL_OR_NOTHING and not is_whole(holder):
             return True

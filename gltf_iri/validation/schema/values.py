@@ -10,7 +10,7 @@ from gltf_iri.asset.words import shown
 if TYPE_CHECKING:
     from gltf_iri.validation.tables import Field
 
-__all__ = ["BROKEN", "WANTED", "complaint", "interval", "is_unlisted", "typed"]
+__all__ = ["BROKEN", "WANTED", "complaint", "interval", "is_index", "is_unlisted", "typed"]
 
 # Stands for a value that was told of already.
 BROKEN: Any = object()
@@ -60,6 +60,12 @@ def complaint(field: Field, value: Any) -> tuple[str, dict[str, Any]] | None:
     if kind == "FLAG" or _is_in_range(field, value):
         return None
     return "VALUE_NOT_IN_RANGE", {"value": shown(value), "range": interval(field)}
+
+
+def is_index(value: Any) -> bool:
+    """Tell whether the value could refer to something."""
+    index = typed("INDEX", value)
+    return index is not BROKEN and index >= 0
 
 
 def is_unlisted(field: Field, value: Any) -> bool:

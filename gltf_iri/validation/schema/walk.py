@@ -11,7 +11,7 @@ from gltf_iri.asset.words import shown
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry, join
 from gltf_iri.validation.schema.arrays import ARRAYS
-from gltf_iri.validation.schema.values import BROKEN, WANTED, complaint, is_unlisted, typed
+from gltf_iri.validation.schema.values import BROKEN, WANTED, complaint, is_index, is_unlisted, typed
 from gltf_iri.validation.schema.version import KNOWN, version_key
 from gltf_iri.validation.tables import EXTENSIONS, TABLES, Field
 
@@ -89,6 +89,10 @@ class Walk:
         return entry
 
     def _property(self, entry: Entry, field: Field, value: Any) -> None:
+        if field.needs and field.kind == "INTEGER" and not is_index(entry.raw.get(field.needs)):
+            # An offset into nothing is not looked at.
+            self.tell(issue("UNSATISFIED_DEPENDENCY", entry.at(field.key), property=field.needs))
+            return
         read = ARRAYS.get(field.shape)
         checked = self._one(field, value, entry) if read is None else read(self, field, value, entry)
         if checked is not BROKEN:
