@@ -41,6 +41,13 @@ def test_a_view_lies_in_its_buffer(codes: Codes, given: dict[str, Any], code: st
     assert codes({"buffers": [BUFFER], "bufferViews": [view(**given)]}) == expected
 
 
+def test_a_view_may_be_too_long_wherever_it_starts(codes: Codes) -> None:
+    broken = ("TYPE_MISMATCH", f"{AT}/byteOffset")
+    for length, others in ((1000, set()), (1002, {("BUFFER_VIEW_TOO_LONG", f"{AT}/byteLength")})):
+        asset = {"buffers": [BUFFER], "bufferViews": [view(byteOffset="a", byteLength=length)]}
+        assert codes(asset) == {broken, *others}
+
+
 def stored(views: list[dict[str, Any]], **more: Any) -> dict[str, Any]:
     return {"buffers": [BUFFER], "bufferViews": views, **more}
 

@@ -62,6 +62,14 @@ def test_times_increase_from_0_on(
     assert places(judge, data, NOT_LATER) == [(str(place), at) for place in not_later]
 
 
+@pytest.mark.parametrize("key", ["samplers", "channels"])
+def test_half_an_animation_has_no_times(key: str, codes: Codes) -> None:
+    asset = moving([1, 0], "VEC3", FLOAT, [0, 0, 0] * 2, path="scale", min=None).asset
+    assert NOT_LATER in {code for code, _ in codes(asset)}
+    asset["animations"][0][key] = 5
+    assert {code for code, _ in codes(asset)} == {"TYPE_MISMATCH", "NODE_EMPTY"}
+
+
 def test_times_increase_from_block_to_block(judge: Judge) -> None:
     times = [float(number) for number in range(BLOCK + 2)]
     assert places(judge, moving(times, "SCALAR", FLOAT, [0], path="weights"), NOT_LATER) == []

@@ -14,12 +14,12 @@ PATH = ("KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_PATH", PLACE)
 NODE = ("KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE", PLACE)
 
 
-def told(codes: Codes, **target: Any) -> set[tuple[str, Any]]:
+def told(codes: Codes, samplers: Any = None, **target: Any) -> set[tuple[str, Any]]:
     animation = {
         "channels": [
             {"sampler": 0, "target": {**target, "extensions": {NAME: {"pointer": "/nodes/0/scale"}}}}
         ],
-        "samplers": [{"input": 0, "output": 1}],
+        "samplers": [{"input": 0, "output": 1}] if samplers is None else samplers,
     }
     found = codes(
         {
@@ -55,3 +55,7 @@ def test_beside_a_pointer_the_path_is_pointer(codes: Codes) -> None:
 )
 def test_beside_a_pointer_there_is_no_node(codes: Codes, node: int, others: set[tuple[str, str]]) -> None:
     assert told(codes, path="pointer", node=node) == {INCOMPLETE, *others}
+
+
+def test_without_samplers_there_are_no_channels(codes: Codes) -> None:
+    assert told(codes, path="pointer", node=0, samplers=[5]) == {INCOMPLETE}

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from conftest import Codes, Judge
-from small_data import binary
+from small_data import UNSIGNED_BYTE, Data, binary
 
 OCTETS = "data:application/octet-stream;base64,"
 
@@ -42,6 +42,28 @@ def test_the_first_buffer_is_not_the_bin_chunk_where_it_has_a_uri(codes: Codes) 
     uri = OCTETS + "AAAAAAA="
     told = codes(binary({"buffers": [{"byteLength": 5, "uri": uri}]}, b"1234"))
     assert told == {("URI_GLB", "/buffers/0/uri"), ("DATA_URI_GLB", "/buffers/0/uri")}
+
+
+def test_what_is_left_of_a_buffer_that_is_cut_off_is_not_looked_at(codes: Codes) -> None:
+    data = Data()
+    data.accessor("SCALAR", UNSIGNED_BYTE, [1, 2, 3, 4], min=[0], max=[4])
+    for declared, expected in (
+        (4, ("ACCESSOR_MIN_MISMATCH", "/accessors/0/min/0")),
+        (5, ("BUFFER_BYTE_LENGTH_MISMATCH", "/buffers/0")),
+    ):
+        asset = data.asset | {"buffers": [{"byteLength": declared}]}
+        assert codes(binary(asset, data.blob)) == {expected}
+
+
+@pytest.mark.parametrize("declared", [None, "a", 0, 5])
+def test_the_bytes_of_a_data_uri_are_looked_at_however_many_they_should_be(
+    declared: Any, codes: Codes
+) -> None:
+    data = Data()
+    data.accessor("SCALAR", UNSIGNED_BYTE, [1, 2, 3, 4], min=[0], max=[4])
+    asset = data.asset
+    asset["buffers"][0]["byteLength"] = declared
+    assert ("ACCESSOR_MIN_MISMATCH", "/accessors/0/min/0") in codes(asset)
 
 
 @pytest.mark.parametrize(("declared", "is_enough"), [(1, True), (2, True), (3, False)])

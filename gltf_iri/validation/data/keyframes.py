@@ -10,6 +10,7 @@ from gltf_iri.asset.formats import INPUT_FORMATS
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.data.access import blocks, elements_of
 from gltf_iri.validation.data.normalised import columns_of
+from gltf_iri.validation.rules.animation_parts import parts
 from gltf_iri.validation.rules.primitives import accessor_format
 
 if TYPE_CHECKING:
@@ -29,7 +30,10 @@ _LARGEST_LENGTH_ERROR = 0.00769
 def times_increase(sampler: Entry, asset: Asset) -> Iterator[Issue]:
     """Tell of times before 0, and of those that are not after the one before."""
     accessor = asset.get("accessors", sampler.get("input"))
+    animation = sampler.parent
     if accessor is None or accessor_format(accessor) not in INPUT_FORMATS:
+        return
+    if animation is None or not all(parts(animation)):
         return
     elements = elements_of(accessor, asset)
     if elements is None or ("times", accessor) in asset.resources.found:

@@ -58,7 +58,7 @@ class Resources:
         return self._uris.get(entry)
 
     def buffer(self, index: int | None) -> memoryview | None:
-        """Return the bytes of a buffer, more or fewer than its byteLength; None where they are not there."""
+        """Return the bytes of a buffer, not always byteLength many; None where they are not there."""
         entry = self._asset.get("buffers", index)
         data = self._read.get(entry) if entry is not None else None
         return memoryview(data) if data is not None else None
@@ -94,6 +94,9 @@ class Resources:
         told: dict[str, Any] = {"pointer": entry.pointer, "mimeType": _BUFFER_MEDIA_TYPE}
         self.told.append(told)
         if "byteLength" not in entry:
+            uri = self.uri(entry)
+            if isinstance(uri, DataUri):
+                self._keep_bytes(entry, uri.data)
             return
         data: bytes | memoryview | None = None
         if "uri" in entry.raw:
@@ -116,6 +119,11 @@ class Resources:
             yield issue(
                 "BUFFER_BYTE_LENGTH_MISMATCH", entry.pointer, length=len(data), declared=entry["byteLength"]
             )
+            if told["storage"] != "data-uri":
+                return  # cut off in transit: what is left of it is not looked at
+        self._keep_bytes(entry, data)
+
+    def _keep_bytes(self, entry: Entry, data: bytes | memoryview) -> None:
         self._read[entry] = data
         self.buffer_bytes += len(data)
 

@@ -9,6 +9,7 @@ from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
+from gltf_iri.validation.rules.animation_parts import parts
 from gltf_iri.validation.rules.registry import Rules
 
 __all__ = ["RULES"]
@@ -20,7 +21,9 @@ def target_leaves_all_to_the_pointer(entry: Entry, asset: Asset) -> Iterator[Iss
     target = entry.parent
     if target is None:
         return
-    if "node" in target:
+    animation = target.parent.parent if target.parent is not None else None
+    # Without samplers there are no channels to speak of.
+    if "node" in target and animation is not None and all(parts(animation)):
         yield issue("KHR_ANIMATION_POINTER_ANIMATION_CHANNEL_TARGET_NODE", entry.pointer)
     path = target.raw.get("path")
     if path != "pointer":

@@ -29,9 +29,11 @@ def _stride(view: Entry, asset: Asset) -> Iterator[Issue]:
 
 
 def _extent(view: Entry, asset: Asset) -> Iterator[Issue]:
-    buffer, start = asset.get("buffers", view.get("buffer")), sound_value_of(view, "byteOffset")
-    if buffer is None or start is None or "byteLength" not in buffer:
+    buffer = asset.get("buffers", view.get("buffer"))
+    if buffer is None or "byteLength" not in buffer:
         return
+    # Wherever a view of a broken offset starts, its length may be too much.
+    start = sound_value_of(view, "byteOffset") or 0
     available = buffer["byteLength"]
     index = view["buffer"]
     if start >= available:
