@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import collections
 import json
+import os
 import random
 import shutil
 import signal
@@ -68,6 +69,14 @@ class Search:
         if finding:
             self._keep(source, finding)
 
+    def tell(self, way: str) -> int:
+        """Print what was found and return the exit code."""
+        grown = resident() - self.settled
+        self.counts["findings"] += grown > MOST_GROWTH
+        told = {"way": way, **self.counts, "slowest_s": round(self.slowest, 3), "grown_mib": grown >> 20}
+        print(json.dumps(told), flush=True)  # noqa: T201
+        return 1 if self.counts["findings"] else 0
+
     def _keep(self, source: Path | bytes, finding: str) -> None:
         kept = self.keep / f"{self.counts.total()}"
         kept.mkdir(parents=True, exist_ok=True)
@@ -122,10 +131,14 @@ def guided(search: Search, is_time_left: Callable[[], bool], asked: argparse.Nam
     corpus = Path(tempfile.mkdtemp())
     for number, path in enumerate(assets(asked.folders)):
         shutil.copy(path, corpus / f"{number}{path.suffix}")
-    atheris.Setup(
-        [sys.argv[0], str(corpus), f"-max_total_time={int(asked.minutes * 60)}", "-max_len=20000"],
-        search.trial,
-    )
+
+    def trial(data: bytes) -> None:
+        if not is_time_left():
+            # Atheris would end the process on the spot, whatever is left to be told.
+            os._exit(search.tell(asked.way))
+        search.trial(data)
+
+    atheris.Setup([sys.argv[0], str(corpus), "-max_len=20000"], trial)
     atheris.Fuzz()
 
 
@@ -157,16 +170,7 @@ def main() -> int:
         return passed < asked.minutes
 
     WAYS[asked.way](search, is_time_left, asked)
-    grown = resident() - search.settled
-    search.counts["findings"] += grown > MOST_GROWTH
-    told = {
-        "way": asked.way,
-        **search.counts,
-        "slowest_s": round(search.slowest, 3),
-        "grown_mib": grown >> 20,
-    }
-    print(json.dumps(told))  # noqa: T201
-    return 1 if search.counts["findings"] else 0
+    return search.tell(asked.way)
 
 
 if __name__ == "__main__":
