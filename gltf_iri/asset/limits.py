@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import Final
 
 __all__ = [
+    "GREATEST_NUMBER",
     "MAX_ASSET_BYTES",
     "MAX_BUFFERLESS_COUNT",
     "MAX_DECODED_PER_BYTE",
@@ -48,6 +49,9 @@ MAX_JSON_INTEGER: Final = 2**53
 
 # Largest float32: matrices, factors and distances end on the GPU in single precision.
 MAX_NUMBER: Final = 3.4028234663852886e38
+
+# What the validator cuts numbers to before it computes with them: JSON's integers have no end, floats have.
+GREATEST_NUMBER: Final = 1e300
 
 # Everything held for one asset: file bytes, decoded accessors and pixels. Many accessors may share the same
 # few bytes of a file, so that bounding each alone would not bound their sum.

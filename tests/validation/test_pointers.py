@@ -98,3 +98,14 @@ def test_many_values_are_told_of_in_one_remark(judge: Any) -> None:
     asset = _animated("/materials/0/emissiveFactor", data, {}, {"count": len(values) // 3})
     (found,) = (i for i in judge(asset).issues if i.code == "IRI_POINTER_VALUE")
     assert ": 2, the first at 66667" in found.message
+
+
+def test_a_value_allowed_alone_hides_none_between_it_and_the_range(codes: Any) -> None:
+    """An index of refraction may be 0, or 1 and more."""
+    data = struct.pack("<3f", 0.0, 0.5, 1.5)
+    asset = _animated(
+        "/materials/0/extensions/KHR_materials_ior/ior", data, {}, {"type": "SCALAR", "count": 3}
+    )
+    asset["extensionsUsed"].append("KHR_materials_ior")
+    asset["materials"] = [{"extensions": {"KHR_materials_ior": {}}}]
+    assert ("IRI_POINTER_VALUE", "/animations/0/samplers/0/output") in codes(asset)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from typing import TYPE_CHECKING
 
 from gltf_iri.validation.bragg.stack import TRANSMISSION
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.pointers.rules import pointed_channels, sampler_of
+from gltf_iri.validation.pointers.rules import pointed_channels
 from gltf_iri.validation.pointers.target import Target
 from gltf_iri.validation.pointers.values import values_key, values_of
+from gltf_iri.validation.rules.animation_parts import sampler_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -67,11 +69,12 @@ class _Reach:
         _, sampler, target = channel
         key = values_key(sampler, target)
         if key not in self._ends:
-            blocks = [(min(block), max(block)) for block in values_of(sampler, target, self._asset) if block]
-            lows, highs = zip(*blocks, strict=True) if blocks else ((), ())
-            self._ends[key] = (min(lows), max(highs)) if blocks else None
-        ends = self._ends[key]
-        return 0.0 if ends is None else max(abs(ends[0] - other), abs(ends[1] - other))
+            columns = chain.from_iterable(values_of(sampler, target, self._asset))
+            ends = [(min(column), max(column)) for column in columns if column]
+            lows, highs = zip(*ends, strict=True) if ends else ((), ())
+            self._ends[key] = (min(lows), max(highs)) if ends else None
+        known = self._ends[key]
+        return 0.0 if known is None else max(abs(end - other) for end in known)
 
 
 def _of_stack(stack: Stack, moved: Moved, reach: _Reach) -> Iterator[Issue]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
+from gltf_iri.asset.limits import GREATEST_NUMBER
 from gltf_iri.material.bragg_limits import (
     BRAGG_CELLS_MAX,
     BRAGG_IOR_ACCEPTED,
@@ -19,15 +20,12 @@ from gltf_iri.validation.bragg.stack import EXTENSION, Layer, Stack, stacks
 from gltf_iri.validation.bragg.textures import Steps, conflicts, pictures
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import Entry
-from gltf_iri.validation.iridescence.textures import colour_images
 from gltf_iri.validation.issue import Issue
+from gltf_iri.validation.rules.data_textures import colour_images
 
 __all__ = ["data", "layers"]
 
 _EXCLUDED = ("KHR_materials_iridescence", "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness")
-
-# JSON's integers have no end, and floats do.
-_GREATEST = 1e300
 
 # Of a layer: property, what every reader accepts, what this one draws.
 _LIMITS = (
@@ -124,7 +122,7 @@ def _beyond(entry: Entry, key: str, value: float, accepted: float, drawn: float)
     return issue(
         "IRI_BRAGG_BEYOND_LIMITS",
         entry.at(key),
-        value=f"{min(value, _GREATEST):.6g}",
+        value=f"{min(value, GREATEST_NUMBER):.6g}",
         accepted=f"{accepted:g}",
         drawn=f"{drawn:g}",
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
+from gltf_iri.asset.limits import GREATEST_NUMBER
 from gltf_iri.validation.asset import Asset
 from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.pointers.rules import animated_properties
@@ -20,9 +21,6 @@ TRANSMISSION = {
     "KHR_materials_transmission": "transmissionFactor",
     "KHR_materials_diffuse_transmission": "diffuseTransmissionFactor",
 }
-
-# JSON's integers have no end, and floats do.
-_GREATEST = 1e300
 
 Tokens = tuple[str, ...]
 
@@ -130,4 +128,4 @@ def number(entry: Entry, key: str) -> float | None:
     if key in entry.raw and key not in entry:
         return None
     value: Any = value_of(entry, key)
-    return float(min(value, _GREATEST)) if value is not None else None
+    return float(min(value, GREATEST_NUMBER)) if value is not None else None

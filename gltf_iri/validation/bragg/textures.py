@@ -5,8 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.iridescence.images import lossy_format
-from gltf_iri.validation.iridescence.textures import image_of
+from gltf_iri.validation.rules.data_textures import (
+    LEVELS,
+    VISIBLE_DELTA_E,
+    conflicts_of,
+    image_of,
+    lossy_format,
+)
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -18,12 +23,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Steps", "conflicts", "pictures"]
 
-_TRANSFORM = "KHR_texture_transform"
-_LEVELS = 256
+_CONFLICTS = {"overridden": "IRI_BRAGG_TEXCOORD_OVERRIDDEN", "decoded": "IRI_BRAGG_COLOUR_SPACE"}
 _CODES_BY_BITS = {8: "IRI_BRAGG_PERIOD_BANDING", 16: "IRI_BRAGG_PERIOD_16_BITS"}
-
-# A step that an eye just sees where two patches meet.
-_VISIBLE_DELTA_E = 1.0
 
 # ΔE a nanometre of 2 (n1 d1 + n2 d2), straight on: the worst of 300 random mirrors, ior2 1.05 to 4, up to 300
 # cells, is 5.7. Below a sixth of a nanometre no step can be seen, and numpy stays where it is.
@@ -36,20 +37,12 @@ _MOST_MEASURED = 100
 def conflicts(stack: Stack, asset: Asset, colours: dict[int, str]) -> Iterator[Issue]:
     """Yield what the textures contradict.
 
-    colours : images that are read as sRGB, with the property that does.
+    colours : what `colour_images` returned.
     """
     for key in ("braggTexture", "braggPeriodTexture"):
         info: Entry | None = stack.entry.get(key)
-        if info is None:
-            continue
-        transform = info.extensions.get(_TRANSFORM)
-        winner = None if transform is None else transform.get("texCoord")
-        given = info.get("texCoord")
-        if winner is not None and given is not None and winner != given:
-            yield issue("IRI_BRAGG_TEXCOORD_OVERRIDDEN", info.at("texCoord"), given=given, winner=winner)
-        image = image_of(info, asset)
-        if image in colours:
-            yield issue("IRI_BRAGG_COLOUR_SPACE", info.pointer, other=colours[image])
+        if info is not None:
+            yield from conflicts_of(info, asset, colours, **_CONFLICTS)
 
 
 class Steps:
@@ -63,14 +56,14 @@ class Steps:
     def of(self, layer: Layer, host_ior: float | None) -> float:
         """Return the ΔE; 0 where no step can be seen, or too many layers were measured."""
         key = (host_ior, layer.ior1, layer.ior2, layer.fill, layer.cells, layer.periods_nm)
-        if None in key or _path_step_nm(layer) * _STEEPEST_PER_NM < _VISIBLE_DELTA_E:
+        if None in key or _path_step_nm(layer) * _STEEPEST_PER_NM < VISIBLE_DELTA_E:
             return 0.0
         if key not in self._known:
             if len(self._known) == _MOST_MEASURED:
                 return 0.0
             from gltf_iri.validation.optics.layer_banding import largest_step
 
-            self._known[key] = largest_step(layer, host_ior, _LEVELS)
+            self._known[key] = largest_step(layer, host_ior, LEVELS)
         return self._known[key]
 
 
@@ -92,7 +85,7 @@ def pictures(stack: Stack, asset: Asset, steps: Steps) -> Iterator[Issue]:
     code = _CODES_BY_BITS.get(image.bits)
     if code is not None:
         delta_e, nm = max((steps.of(layer, stack.host_ior), _step_nm(layer)) for layer in varying)
-        if delta_e >= _VISIBLE_DELTA_E:
+        if delta_e >= VISIBLE_DELTA_E:
             yield issue(code, info.pointer, step=nm, delta_e=delta_e)
 
 
@@ -100,7 +93,7 @@ def _step_nm(layer: Layer) -> float:
     """Return what one value of 8 bits adds to the period; 0 where nothing is known, or an animation rules."""
     if layer.periods_nm is None or layer.is_animated("periodMinimum", "periodMaximum"):
         return 0.0
-    return abs(layer.periods_nm[-1] - layer.periods_nm[0]) / (_LEVELS - 1)
+    return abs(layer.periods_nm[-1] - layer.periods_nm[0]) / (LEVELS - 1)
 
 
 def _path_step_nm(layer: Layer) -> float:

@@ -10,7 +10,7 @@ from gltf_iri.asset.formats import INPUT_FORMATS
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.data.access import blocks, elements_of
 from gltf_iri.validation.data.normalised import columns_of
-from gltf_iri.validation.rules.animation_parts import parts
+from gltf_iri.validation.rules.animation_parts import parts, sampler_of
 from gltf_iri.validation.rules.primitives import accessor_format
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ def times_increase(sampler: Entry, asset: Asset) -> Iterator[Issue]:
 
 def rotations_are_of_length_1(channel: Entry, asset: Asset) -> Iterator[Issue]:
     """Tell of rotations that are no unit quaternions; of a spline's elements, those that are values."""
-    target, sampler = channel.get("target"), _sampler(channel)
+    target, sampler = channel.get("target"), sampler_of(channel)
     if target is None or target.get("path") != "rotation" or sampler is None:
         return
     accessor = asset.get("accessors", sampler.get("output"))
@@ -85,9 +85,3 @@ def rotations_are_of_length_1(channel: Entry, asset: Asset) -> Iterator[Issue]:
                 yield issue(code, channel.at("sampler"), first=index, last=index + 3, length=length)
     if is_clean:
         asset.resources.found[name] = True
-
-
-def _sampler(channel: Entry) -> Entry | None:
-    samplers = channel.parent.get("samplers", ()) if channel.parent is not None else ()
-    sampler: Entry | None = samplers[channel["sampler"]] if "sampler" in channel and samplers else None
-    return sampler

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from gltf_iri.asset.limits import GREATEST_NUMBER
 from gltf_iri.validation.iridescence.codes import NAME
 from gltf_iri.validation.tables import TABLES, value_of
 
@@ -33,9 +34,6 @@ _NUMBERS = (
     "iridescenceThicknessMinimum",
     "iridescenceThicknessMaximum",
 )
-
-# JSON's integers have no end, and floats do.
-_GREATEST = 1e300
 
 # Indices that single precision cannot tell apart are one: exporters write 1.33 as 1.3300000429153442.
 _SAME_INDEX = 1e-6
@@ -84,7 +82,7 @@ class Film:
         self.moved = moved
         self.bases = bases
         self.factor, self.ior, self.minimum_nm, self.maximum_nm = (
-            min(value_of(extension, key), _GREATEST) for key in _NUMBERS
+            min(value_of(extension, key), GREATEST_NUMBER) for key in _NUMBERS
         )
         self.strength: Entry | None = extension.get("iridescenceTexture")
         self.thickness: Entry | None = extension.get("iridescenceThicknessTexture")
@@ -152,7 +150,7 @@ def _bases(material: Entry, film: Entry, is_still: bool, *, is_painted: bool) ->
 
 def _dielectric(material: Entry, film: Entry, is_still: bool) -> Base:
     ior, specular = material.extensions.get(_IOR), material.extensions.get(_SPECULAR)
-    index = min(_value(ior, _IOR, "ior"), _GREATEST)
+    index = min(_value(ior, _IOR, "ior"), GREATEST_NUMBER)
     f0 = 1.0 if index == 0.0 else ((index - 1.0) / (index + 1.0)) ** 2
     pointer = ior.at("ior") if ior is not None and "ior" in ior else film.pointer
     if specular is None:
@@ -164,7 +162,7 @@ def _dielectric(material: Entry, film: Entry, is_still: bool) -> Base:
 
 def _colour(weight: float, f0: float, tint: list[Any]) -> Colour:
     """Return weight · min(f0 · tint, 1), as KHR_materials_specular combines them."""
-    red, green, blue = (weight * min(f0 * min(channel, _GREATEST), 1.0) for channel in tint[:3])
+    red, green, blue = (weight * min(f0 * min(channel, GREATEST_NUMBER), 1.0) for channel in tint[:3])
     return red, green, blue
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gltf_iri.validation.codes import issue
-from gltf_iri.validation.iridescence.textures import image_of
+from gltf_iri.validation.rules.data_textures import LEVELS, VISIBLE_DELTA_E, image_of, lossy_format
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -14,13 +14,9 @@ if TYPE_CHECKING:
     from gltf_iri.validation.iridescence.film import Film
     from gltf_iri.validation.issue import Issue
 
-__all__ = ["Steps", "images_of", "lossy_format"]
+__all__ = ["Steps", "images_of"]
 
-_LEVELS = 256
 _CODES_BY_BITS = {8: "IRI_IRIDESCENCE_THICKNESS_BANDING", 16: "IRI_IRIDESCENCE_THICKNESS_16_BITS"}
-
-# A step that an eye just sees where two patches meet.
-_VISIBLE_DELTA_E = 1.0
 
 # ΔE a nanometre of path difference, straight on: the worst of 1,500 random films, index 1.02 to 4, on any
 # base is 2.87, and of 600 on bases of F0 up to 0.1, as dielectrics are, 1.44. Where a step is less than one
@@ -44,10 +40,10 @@ class Steps:
 
     def of(self, film: Film) -> float:
         """Return the ΔE; 0 where no step can be seen, or too many films were measured."""
-        step_nm = 2.0 * film.ior * (film.greatest_nm - film.least_nm) / (_LEVELS - 1)
+        step_nm = 2.0 * film.ior * (film.greatest_nm - film.least_nm) / (LEVELS - 1)
         is_dark = all(max(base.f0) <= _DARK_F0 for base in film.bases)
         steepest = _STEEPEST_ON_DARK_PER_NM if is_dark else _STEEPEST_PER_NM
-        if film.ior <= _STEEPEST_IOR and step_nm * steepest < _VISIBLE_DELTA_E:
+        if film.ior <= _STEEPEST_IOR and step_nm * steepest < VISIBLE_DELTA_E:
             return 0.0
         bases = tuple((base.f0, base.is_known) for base in film.bases)
         key = (film.ior, film.minimum_nm, film.maximum_nm, bases)
@@ -56,7 +52,7 @@ class Steps:
                 return 0.0
             from gltf_iri.validation.optics.banding import largest_step
 
-            self._known[key] = largest_step(film, _LEVELS)
+            self._known[key] = largest_step(film, LEVELS)
         return self._known[key]
 
 
@@ -79,22 +75,12 @@ def images_of(film: Film, asset: Asset, steps: Steps) -> Iterator[Issue]:
     yield from _steps(film, image.bits, steps)
 
 
-def lossy_format(media_type: str, data: bytes | memoryview | None) -> str | None:
-    """Return the name of a compression that does not keep its values."""
-    if media_type == "image/jpeg":
-        return "JPEG"
-    # RFC 9649, §2.5: the first chunk of a plain lossy file; where colour profiles or alpha stand before it,
-    # nobody looks further.
-    is_lossy_webp = media_type == "image/webp" and data is not None and bytes(data[12:16]) == b"VP8 "
-    return "lossy WebP" if is_lossy_webp else None
-
-
 def _steps(film: Film, bits: int, steps: Steps) -> Iterator[Issue]:
     """Tell of steps that can be seen, straight away or once a reader has cut 16 bits to 8."""
     code = _CODES_BY_BITS.get(bits)
     if code is None or not film.has_steady_thickness:
         return
     delta_e = steps.of(film)
-    if delta_e >= _VISIBLE_DELTA_E:
-        step_nm = (film.greatest_nm - film.least_nm) / (_LEVELS - 1)
+    if delta_e >= VISIBLE_DELTA_E:
+        step_nm = (film.greatest_nm - film.least_nm) / (LEVELS - 1)
         yield issue(code, film.at("iridescenceThicknessTexture"), step=step_nm, delta_e=delta_e)

@@ -10,8 +10,8 @@ from gltf_iri.validation.iridescence.effect import effect_of
 from gltf_iri.validation.iridescence.film import film_of
 from gltf_iri.validation.iridescence.images import Steps, images_of
 from gltf_iri.validation.iridescence.readers import readers_of
-from gltf_iri.validation.iridescence.textures import colour_images, textures_of
 from gltf_iri.validation.pointers.rules import animated_properties
+from gltf_iri.validation.rules.data_textures import colour_images, conflicts_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -25,6 +25,11 @@ __all__ = ["films", "pictures"]
 
 # Extensions that the text excludes on the same material.
 _EXCLUDED = ("KHR_materials_pbrSpecularGlossiness", "KHR_materials_unlit")
+
+_CONFLICTS = {
+    "overridden": "IRI_IRIDESCENCE_TEXCOORD_OVERRIDDEN",
+    "decoded": "IRI_IRIDESCENCE_COLOUR_SPACE",
+}
 
 
 def films(root: Entry, asset: Asset) -> Iterator[Issue]:
@@ -43,7 +48,9 @@ def films(root: Entry, asset: Asset) -> Iterator[Issue]:
             yield from _told(film, effect_of(film), asset)
             if film.is_active:
                 yield from _told(film, readers_of(film), asset)
-                yield from _told(film, textures_of(film, asset, colours), asset)
+                for info in (film.strength, film.thickness):
+                    if info is not None:
+                        yield from _told(film, conflicts_of(info, asset, colours, **_CONFLICTS), asset)
 
 
 def pictures(asset: Asset) -> Iterator[Issue]:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from gltf_iri.colour.difference import delta_e_2000
+from gltf_iri.colour.transfer import srgb_decode
 from gltf_iri.errors import UsageError
 from gltf_iri.evaluation.film import Film as OpticalFilm
 from gltf_iri.evaluation.film import base_from_f0
@@ -23,10 +24,22 @@ if TYPE_CHECKING:
 
     Float64 = NDArray[np.float64]
 
-__all__ = ["COSINES", "bases_of", "film_colours", "largest_difference", "thicknesses"]
+__all__ = [
+    "COSINES",
+    "MIDDLE",
+    "MIDDLE_DECODED",
+    "bases_of",
+    "film_colours",
+    "largest_difference",
+    "thicknesses",
+]
 
 # From straight on to 78°: towards grazing light all surfaces are white.
 COSINES = np.linspace(1.0, 0.2, 9)
+
+# A texel's middle value, and what is left of it where data is decoded as a colour.
+MIDDLE = 0.5
+MIDDLE_DECODED = float(srgb_decode(MIDDLE))
 
 # A base colour that its texture multiplies is half of its factor, for want of better knowledge.
 _TEXTURED = 0.5

@@ -17,11 +17,14 @@ from gltf_iri.optics.fresnel import f_schlick
 from gltf_iri.validation.optics.banding import largest_step
 from gltf_iri.validation.optics.film_colours import (
     COSINES,
+    MIDDLE,
+    MIDDLE_DECODED,
     bases_of,
     film_colours,
     largest_difference,
     thicknesses,
 )
+from gltf_iri.validation.rules.data_textures import LEVELS
 
 if TYPE_CHECKING:
     from gltf_iri.validation.iridescence.film import Base, Film
@@ -29,14 +32,8 @@ if TYPE_CHECKING:
 
 __all__ = ["with_consequence"]
 
-# A texel's middle value, and what is left of it where data is decoded as a colour (IEC 61966-2-1).
-_MIDDLE = 0.5
-_MIDDLE_DECODED = ((_MIDDLE + 0.055) / 1.055) ** 2.4
-
 # Babylon.js' index of a clearcoat.
 _COAT_IOR = 1.5
-
-_LEVELS = 256
 
 
 def with_consequence(remark: Issue, film: Film) -> Issue:
@@ -129,8 +126,8 @@ def _between_texels(film: Film, base: Base, remark: Issue) -> float:
 def _decoded(film: Film, base: Base, remark: Issue) -> float:
     """Return what it does to decode the middle value as a colour."""
     if _is_strength(film, remark):
-        return _blended(film, base, _MIDDLE * film.factor, _MIDDLE_DECODED * film.factor)
-    ends = np.array([[1.0 - t, t] for t in (_MIDDLE, _MIDDLE_DECODED)])
+        return _blended(film, base, MIDDLE * film.factor, MIDDLE_DECODED * film.factor)
+    ends = np.array([[1.0 - t, t] for t in (MIDDLE, MIDDLE_DECODED)])
     colours = film_colours(base, ends @ np.array([film.minimum_nm, film.maximum_nm]), film.ior)
     return largest_difference(colours[:, 0], colours[:, 1])
 
@@ -161,7 +158,7 @@ def _under_coat(film: Film, base: Base, remark: Issue) -> float:
 
 
 def _by_one_value(film: Film, base: Base, remark: Issue) -> float:
-    return largest_step(film, _LEVELS)
+    return largest_step(film, LEVELS)
 
 
 def _is_strength(film: Film, remark: Issue) -> bool:

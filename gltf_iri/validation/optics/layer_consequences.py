@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from gltf_iri.errors import UsageError
-from gltf_iri.validation.optics.film_colours import largest_difference
+from gltf_iri.validation.optics.film_colours import MIDDLE, MIDDLE_DECODED, largest_difference
 from gltf_iri.validation.optics.layer_banding import largest_step
 from gltf_iri.validation.optics.layer_colours import (
     COSINES,
@@ -23,16 +23,13 @@ from gltf_iri.validation.optics.layer_colours import (
     periods,
     stack_colours,
 )
+from gltf_iri.validation.rules.data_textures import LEVELS
 
 if TYPE_CHECKING:
     from gltf_iri.validation.bragg.stack import Layer, Stack
     from gltf_iri.validation.issue import Issue
 
 __all__ = ["Consequences"]
-
-# A texel's middle value, and what is left of it where data is decoded as a colour (IEC 61966-2-1).
-_MIDDLE = 0.5
-_MIDDLE_DECODED = ((_MIDDLE + 0.055) / 1.055) ** 2.4
 
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
@@ -41,8 +38,6 @@ _MOST_LAYERS = 32
 
 # Reflectances, for all remarks on one file: some seconds.
 _MOST_REFLECTANCES = 50_000_000
-
-_LEVELS = 256
 
 
 class Consequences:
@@ -120,9 +115,9 @@ def _decoded(stack: Stack, remark: Issue) -> float:
     """Return what it does to decode the middle value as a colour."""
     if _is_strength(stack, remark):
         bare, full = bare_colours(stack), stack_colours(stack, 1.0)
-        right, wrong = (bare + t * (full - bare) for t in (_MIDDLE, _MIDDLE_DECODED))
+        right, wrong = (bare + t * (full - bare) for t in (MIDDLE, MIDDLE_DECODED))
         return largest_difference(right, wrong)
-    return max(_between(layer, stack, _MIDDLE, _MIDDLE_DECODED) for layer in stack.layers)
+    return max(_between(layer, stack, MIDDLE, MIDDLE_DECODED) for layer in stack.layers)
 
 
 def _without_green(stack: Stack, remark: Issue) -> float:
@@ -136,7 +131,7 @@ def _between(layer: Layer, stack: Stack, one: float, other: float) -> float:
 
 
 def _by_one_value(stack: Stack, remark: Issue) -> float:
-    return max(largest_step(layer, stack.host_ior, _LEVELS) for layer in stack.layers)
+    return max(largest_step(layer, stack.host_ior, LEVELS) for layer in stack.layers)
 
 
 def _layer_of(stack: Stack, remark: Issue) -> Layer:

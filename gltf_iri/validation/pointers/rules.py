@@ -1,7 +1,7 @@
 """KHR_animation_pointer: what the Khronos validator leaves out, as it says itself.
 
 That what a pointer leads to is there and can change, that no two channels of an animation change it, and that
-the values have its type and number. What the values are is looked at once they are read (`pointer_values`).
+the values have its type and number. What the values are is looked at once they are read (`value_rules`).
 """
 
 from __future__ import annotations
@@ -16,10 +16,11 @@ from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.issue import Issue
 from gltf_iri.validation.pointers.codes import POINTER_CODES
 from gltf_iri.validation.pointers.target import Target, Unresolved, resolve
+from gltf_iri.validation.rules.animation_parts import sampler_of
 from gltf_iri.validation.rules.registry import Rules
 from gltf_iri.validation.tables import value_of
 
-__all__ = ["RULES", "animated_properties", "pointed_channels", "sampler_of", "shown_tokens"]
+__all__ = ["RULES", "animated_properties", "pointed_channels", "shown_tokens"]
 
 _NAME = "KHR_animation_pointer"
 _TYPES = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
@@ -50,14 +51,6 @@ def animated_properties(asset: Asset) -> frozenset[tuple[str, ...]]:
         for _, _, _, target in pointed_channels(animation, asset)
         if isinstance(target, Target)
     )
-
-
-def sampler_of(channel: Entry) -> Entry | None:
-    """Return the sampler that a channel takes its values from, None where it is broken."""
-    samplers = channel.parent.get("samplers", ()) if channel.parent is not None else ()
-    index = channel.get("sampler")
-    sampler: Entry | None = samplers[index] if index is not None and index < len(samplers) else None
-    return sampler
 
 
 def shown_tokens(tokens: tuple[str, ...]) -> str:

@@ -1,4 +1,4 @@
-"""The film's two textures beside what else is said of them: UV sets, and colours in the same image."""
+"""Textures whose channels are numbers, as films and layers have them: what must not become of those."""
 
 from __future__ import annotations
 
@@ -12,33 +12,36 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from gltf_iri.validation.asset import Asset
-    from gltf_iri.validation.iridescence.film import Film
     from gltf_iri.validation.issue import Issue
 
-__all__ = ["colour_images", "image_of", "textures_of"]
+__all__ = ["LEVELS", "VISIBLE_DELTA_E", "colour_images", "conflicts_of", "image_of", "lossy_format"]
+
+# The values of 8 bits.
+LEVELS = 256
+
+# A step that an eye just sees where two patches meet.
+VISIBLE_DELTA_E = 1.0
 
 _TRANSFORM = "KHR_texture_transform"
 _WEBP = "EXT_texture_webp"
 
 
-def textures_of(film: Film, asset: Asset, colours: dict[int, str]) -> Iterator[Issue]:
-    """Yield what the film's textures contradict.
+def conflicts_of(
+    info: Entry, asset: Asset, colours: dict[int, str], *, overridden: str, decoded: str
+) -> Iterator[Issue]:
+    """Yield what a textureInfo contradicts: itself about its UV set, other readers about what its image is.
 
     colours : what `colour_images` returned.
+    overridden, decoded : the codes for a UV set that is not the one read, and for numbers read as colours.
     """
-    for info in (film.strength, film.thickness):
-        if info is None:
-            continue
-        transform = info.extensions.get(_TRANSFORM)
-        winner = None if transform is None else transform.get("texCoord")
-        given = info.get("texCoord")
-        if winner is not None and given is not None and winner != given:
-            yield issue(
-                "IRI_IRIDESCENCE_TEXCOORD_OVERRIDDEN", info.at("texCoord"), given=given, winner=winner
-            )
-        image = image_of(info, asset)
-        if image in colours:
-            yield issue("IRI_IRIDESCENCE_COLOUR_SPACE", info.pointer, other=colours[image])
+    transform = info.extensions.get(_TRANSFORM)
+    winner = None if transform is None else transform.get("texCoord")
+    given = info.get("texCoord")
+    if winner is not None and given is not None and winner != given:
+        yield issue(overridden, info.at("texCoord"), given=given, winner=winner)
+    image = image_of(info, asset)
+    if image in colours:
+        yield issue(decoded, info.pointer, other=colours[image])
 
 
 def colour_images(asset: Asset) -> dict[int, str]:
@@ -68,3 +71,13 @@ def image_of(info: Entry, asset: Asset) -> int | None:
     image: int | None = texture.get("source")
     webp = texture.extensions.get(_WEBP)
     return webp.get("source") if image is None and webp is not None else image
+
+
+def lossy_format(media_type: str, data: bytes | memoryview | None) -> str | None:
+    """Return the name of a compression that does not keep its values."""
+    if media_type == "image/jpeg":
+        return "JPEG"
+    # RFC 9649, §2.5: the first chunk of a plain lossy file; where colour profiles or alpha stand before it,
+    # nobody looks further.
+    is_lossy_webp = media_type == "image/webp" and data is not None and bytes(data[12:16]) == b"VP8 "
+    return "lossy WebP" if is_lossy_webp else None
