@@ -141,6 +141,12 @@ def test_of_a_file_that_breaks_off_only_the_json_is_judged(judge, codes, missing
     assert judge(broken).info is None
 
 
+@pytest.mark.parametrize("empty", [EMPTY_J, EMPTY_B, chunk(b"UNKN")])
+def test_after_an_empty_last_chunk_nothing_is_summed_up(judge, empty):
+    assert judge(glb(J, B, empty)).info is None
+    assert judge(glb(J, B, empty, U)).info is not None
+
+
 def test_chunks_without_number_are_not_walked(codes):
     chunks = [J, B, *[U] * MAX_GLB_CHUNKS * 20]
     told = codes(glb(*chunks), only=frozenset({"IRI_GLB_TOO_MANY_CHUNKS", "GLB_LENGTH_MISMATCH"}))

@@ -93,6 +93,14 @@ def test_a_scene_with_the_mesh_holds_the_joints(
     assert told == ({NO_SCENE} if is_told else set())
 
 
+@pytest.mark.parametrize(("scene", "is_told"), [([0], True), ([1], False), ([0, 1], True), ([2], False)])
+def test_a_scene_that_names_a_part_of_a_tree_shows_what_is_below(
+    scene: list[int], is_told: bool, codes: Codes
+) -> None:
+    told = codes(skinned(SHOWN | over(1), {}, {}, joints=[2], scenes=[scene]))
+    assert (NO_SCENE in told) == is_told
+
+
 @pytest.mark.parametrize(
     ("own", "is_told"),
     [

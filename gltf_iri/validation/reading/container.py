@@ -32,14 +32,16 @@ class Container:
 
     json, binary : the first chunk of either kind; None where there is none, or none that is all there.
     is_whole : the file does not end within a chunk.
+    ends_empty : its last chunk holds nothing.
     """
 
-    __slots__ = ("binary", "is_whole", "json")
+    __slots__ = ("binary", "ends_empty", "is_whole", "json")
 
     def __init__(self) -> None:
         self.json: memoryview | None = None
         self.binary: memoryview | None = None
         self.is_whole = True
+        self.ends_empty = False
 
 
 def read_container(data: bytes, tell: Callable[[Issue], None]) -> Container:
@@ -86,6 +88,7 @@ def _read_chunks(data: bytes, length: int, container: Container, tell: Callable[
             tell(issue("GLB_UNEXPECTED_END_OF_CHUNK_DATA", offset=len(data)))
             container.is_whole = False
             return
+        container.ends_empty = not size and offset == len(data)
         # Of an empty chunk at the very end it was told already that nothing is in it.
         if kind == _JSON and container.json is None and (size or offset < len(data)):
             container.json = whole[start:offset]

@@ -22,9 +22,10 @@ class Reading:
     root : the glTF object, or None where there is none.
     binary : the BIN chunk of a GLB.
     is_whole : the file does not break off, so that what is missing in it is missed.
+    ends_empty : it is a GLB whose last chunk holds nothing.
     """
 
-    __slots__ = ("binary", "is_glb", "is_whole", "root")
+    __slots__ = ("binary", "ends_empty", "is_glb", "is_whole", "root")
 
     def __init__(
         self,
@@ -33,11 +34,13 @@ class Reading:
         *,
         is_glb: bool = False,
         is_whole: bool = True,
+        ends_empty: bool = False,
     ) -> None:
         self.root = root
         self.binary = binary
         self.is_glb = is_glb
         self.is_whole = is_whole
+        self.ends_empty = ends_empty
 
     @property
     def mime_type(self) -> str | None:
@@ -63,7 +66,8 @@ def read(data: bytes, name: str, tell: Callable[[Issue], None]) -> Reading:
         return Reading(read_json(data, tell))
     container = read_container(data, tell)
     root = None if container.json is None else read_json(bytes(container.json), tell)
-    return Reading(root, container.binary, is_glb=True, is_whole=container.is_whole)
+    is_whole, ends_empty = container.is_whole, container.ends_empty
+    return Reading(root, container.binary, is_glb=True, is_whole=is_whole, ends_empty=ends_empty)
 
 
 def json_bytes(data: bytes, name: str) -> bytes:

@@ -55,27 +55,43 @@ def transforms_have_an_effect(root: Entry, asset: Asset) -> Iterator[Issue]:
 def scenes_hold_joints(root: Entry, asset: Asset) -> Iterator[Issue]:
     """Every scene that shows a skinned mesh also holds its joints."""
     trees = asset.trees
-    # Top of a tree to the scenes that show some of it, and to those that show all.
-    some: dict[int, set[int]] = {}
-    whole: dict[int, set[int]] = {}
+    shown: dict[int, set[int]] = {}
     for number, scene in enumerate(asset.array("scenes")):
         for index in scene.get("nodes", ()) if scene is not None else ():
             if index is not None:
-                some.setdefault(trees.tops[index], set()).add(number)
-                if trees.parents[index] is None:
-                    whole.setdefault(index, set()).add(number)
-    # Tops of a mesh's and of its joints' tree to whether every scene has both: many nodes share their trees.
+                shown.setdefault(index, set()).add(number)
+    whole = {top: scenes for top, scenes in shown.items() if trees.parents[top] is None}
+    nearest = _nearest_shown(trees.parents, shown)
+    # A node that scenes name, and the top of the joints' tree, to whether all those scenes have both.
     known: dict[tuple[int, int], bool] = {}
     tops_of_skins = [_top_of_joints(skin, asset) for skin in asset.array("skins")]
     for index, node in enumerate(asset.array("nodes")):
         top = tops_of_skins[node["skin"]] if node is not None and "skin" in node else None
         if node is None or top is None:
             continue
-        pair = trees.tops[index], top
-        if pair not in known:
-            known[pair] = some.get(pair[0], set()) <= whole.get(top, set())
-        if not known[pair]:
-            yield issue("NODE_SKIN_NO_SCENE", node.pointer)
+        for place in {nearest[index], trees.tops[index]}:
+            pair = place, top
+            if pair not in known:
+                known[pair] = shown.get(place, set()) <= whole.get(top, set())
+            if not known[pair]:
+                yield issue("NODE_SKIN_NO_SCENE", node.pointer)
+                break
+
+
+def _nearest_shown(parents: list[int | None], shown: dict[int, set[int]]) -> list[int]:
+    """Return for each node the first that scenes name, from itself up; where they name none, the last."""
+    nearest = list(range(len(parents)))
+    is_known = [False] * len(parents)
+    for start in nearest.copy():
+        way: list[int] = []
+        node: int | None = start
+        while node is not None and not is_known[node]:
+            is_known[node] = True
+            way.append(node)
+            node = None if node in shown else parents[node]
+        for member in way:
+            nearest[member] = way[-1] if node is None else nearest[node]
+    return nearest
 
 
 class _Moved:
