@@ -26,6 +26,12 @@ __all__ = ["accessors_hold_what_they_say", "sparse_indices_increase"]
 # exponent (IEEE 754). Searching for it costs a thousandth of looking at numbers.
 _SUSPECT_BYTES = (b"\x7f", b"\xff")
 
+# Of each bound: the code where the data's own is another, and that where elements lie beyond it.
+_CODES = {
+    "min": ("ACCESSOR_MIN_MISMATCH", "ACCESSOR_ELEMENT_OUT_OF_MIN_BOUND"),
+    "max": ("ACCESSOR_MAX_MISMATCH", "ACCESSOR_ELEMENT_OUT_OF_MAX_BOUND"),
+}
+
 
 def sparse_indices_increase(accessor: Entry, asset: Asset) -> Iterator[Issue]:
     """Tell of sparse indices that do not increase, or are beyond the accessor."""
@@ -110,15 +116,16 @@ def _compare(
     accessor: Entry, asset: Asset, elements: Elements, low: list[Any], high: list[Any]
 ) -> Iterator[Issue]:
     beyond: list[tuple[str, str, int, Any]] = []
-    for key, code, actual in (("min", "MIN", low), ("max", "MAX", high)):
+    for key, actual in (("min", low), ("max", high)):
+        mismatch, out_of_bound = _CODES[key]
         for place, stated in enumerate(accessor.get(key, ())):
             declared = _single(stated) if elements.component == FLOAT else stated
             if actual[place] != declared:
                 pointer = accessor.at(key, place)
-                yield issue(f"ACCESSOR_{code}_MISMATCH", pointer, declared=declared, actual=actual[place])
+                yield issue(mismatch, pointer, declared=declared, actual=actual[place])
                 # Where the first value is NaN, so is what was found, and those behind it may be beyond.
                 if not (actual[place] > declared if key == "min" else actual[place] < declared):
-                    beyond.append((f"ACCESSOR_ELEMENT_OUT_OF_{code}_BOUND", key, place, declared))
+                    beyond.append((out_of_bound, key, place, declared))
     counts = [0] * len(beyond)
     for first in blocks(elements, asset, accessor.pointer) if beyond else ():
         columns = elements.columns(first)

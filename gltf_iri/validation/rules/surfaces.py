@@ -55,8 +55,12 @@ def _of_primitive(primitive: Entry, known: list[_Needs | None]) -> Iterator[Issu
         if needs is not None:
             worn.append((needs, mapping.at("material")))
     if own is not None and own.reads_tangents and not ("TANGENT" in names and "NORMAL" in names):
-        code = "GENERATED_TANGENT_SPACE" if own.has_normal_texture else "NO_TANGENT_SPACE"
-        yield issue(f"MESH_PRIMITIVE_{code}", primitive.at("material"))
+        code = (
+            "MESH_PRIMITIVE_GENERATED_TANGENT_SPACE"
+            if own.has_normal_texture
+            else "MESH_PRIMITIVE_NO_TANGENT_SPACE"
+        )
+        yield issue(code, primitive.at("material"))
     if "TANGENT" in names and not any(needs.reads_tangents for needs, _ in worn):
         yield issue("UNUSED_MESH_TANGENT", primitive.at("attributes", "TANGENT"))
     yield from _texture_coordinates(primitive, worn, count_of_sets(names, "TEXCOORD") or 0)
