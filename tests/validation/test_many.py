@@ -6,6 +6,7 @@ import json
 import multiprocessing
 import os
 import signal
+import socket
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import BrokenExecutor, Future
 from concurrent.futures.process import BrokenProcessPool
@@ -179,3 +180,14 @@ def test_no_scheduler_is_a_sentence(files: list[str], monkeypatch: pytest.Monkey
     monkeypatch.setattr(crews, "_CONNECT_TIMEOUT_S", 0.2)
     with pytest.raises(UsageError, match="No Dask scheduler answers"):
         list(validate_many(files, Options(), scheduler="tcp://127.0.0.1:1"))
+
+
+def test_what_listens_and_is_no_scheduler_is_a_sentence(
+    files: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    monkeypatch.setattr(crews, "_CONNECT_TIMEOUT_S", 0.5)
+    with socket.create_server(("127.0.0.1", 0)) as mute:
+        port = mute.getsockname()[1]
+        with pytest.raises(UsageError, match="No Dask scheduler answers"):
+            list(validate_many(files, Options(), scheduler=f"tcp://127.0.0.1:{port}"))

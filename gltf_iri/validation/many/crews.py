@@ -99,6 +99,7 @@ class _Cluster(Crew):
             ) from error
         connect: Any = distributed.Client
         try:
+            _greet(address)
             self._client = connect(address, timeout=_CONNECT_TIMEOUT_S, set_as_default=False)
         except (OSError, ValueError, TypeError) as error:
             raise UsageError(
@@ -119,3 +120,27 @@ class _Cluster(Crew):
     def dismiss(self) -> None:
         self._executor.shutdown(wait=False)
         self._client.close()
+
+
+def _greet(address: str) -> None:
+    """Let a scheduler say who it is; OSError where none does.
+
+    A client waits for ever for whatever listens there and is no Dask, such as the port of a dashboard, and
+    one that found nobody complains once more, on stderr, when it is thrown away.
+    """
+    import asyncio
+
+    from distributed.comm import connect
+    from distributed.security import Security
+
+    with_whom: Any = Security().get_connection_args("client")
+    greeting: Any = connect
+
+    async def greet() -> None:
+        # Its own limit does not hold for the answer.
+        comm = await asyncio.wait_for(
+            greeting(address, timeout=_CONNECT_TIMEOUT_S, **with_whom), _CONNECT_TIMEOUT_S
+        )
+        await comm.close()
+
+    asyncio.run(greet())
