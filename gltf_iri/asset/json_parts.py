@@ -22,6 +22,9 @@ ESCAPED_SURROGATE: Final = re.compile(r"\\u[dD][89a-fA-F]")
 # A string or a bracket. An unterminated string runs to the end, which keeps the scan linear for any input.
 _STRINGS_AND_BRACKETS: Final = re.compile(rb'"[^"\\]*+(?:\\.[^"\\]*+)*+"?|[\[\]{}]', re.DOTALL)
 
+# Objects whose repeated key is remembered: whoever hears of so many knows enough.
+_MOST_REPEATED: Final = 10_000
+
 _LONGEST_EXACT_INTEGER: Final = 16  # characters of 2**53, and of −999 999 999 999 999
 
 
@@ -61,13 +64,15 @@ class Hooks:
         """Build an object; of a key that stands twice the last value holds."""
         built = dict(pairs)
         if len(built) < len(pairs):
+            self.is_suspicious = True
+            if len(self._repeated) == _MOST_REPEATED:
+                return built
             seen: set[str] = set()
             for key, _ in pairs:
                 if key in seen:
                     self._repeated[id(built)] = (built, key)
                     break
                 seen.add(key)
-            self.is_suspicious = True
         return built
 
     def number(self, text: str) -> float:

@@ -20,6 +20,7 @@ __all__ = [
     "MAX_JSON_BYTES",
     "MAX_JSON_DEPTH",
     "MAX_JSON_INTEGER",
+    "MAX_JSON_OBJECTS",
     "MAX_JSON_VALUES",
     "MAX_NODE_DEPTH",
     "MAX_NUMBER",
@@ -40,6 +41,10 @@ MAX_JSON_BYTES: Final = 128 * 2**20
 # Commas and opening brackets: a Python object costs up to 200 bytes for 4 bytes of text, so 128 MiB of "{},"
 # would take many gigabytes. Four million values are about a hundred thousand nodes.
 MAX_JSON_VALUES: Final = 4_000_000
+
+# Opening braces, for the validator alone: of each object it keeps what stands in the file, what of it is
+# sound, and where, up to 700 bytes together. A real file of four million values has about as many.
+MAX_JSON_OBJECTS: Final = 500_000
 
 # The core schema nests 8 deep; the rest is for extras. Python's parser recurses and gives up near 1000.
 MAX_JSON_DEPTH: Final = 128

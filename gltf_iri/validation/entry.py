@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 __all__ = ["Entry", "join"]
 
 # Longer names are cut in pointers: a million remarks on a key of a megabyte must not take a terabyte.
 _LONGEST_TOKEN = 1000
+
+# One for all: hardly any object has extensions, and a dict each would be a fifth of a million objects.
+_NO_EXTENSIONS: Mapping[str, Entry] = MappingProxyType({})
 
 
 class Entry(dict[str, Any]):
@@ -20,7 +25,7 @@ class Entry(dict[str, Any]):
     pointer : JSON Pointer of the object.
     raw : the object as the file has it.
     parent : the entry that holds this one, directly or in an array; of an extension, its carrier.
-    extensions : the extension objects that are known and stand where they may, by name.
+    extensions : the extension objects that are known and stand where they may, by name; see `carry`.
     is_used : something refers to it.
     """
 
@@ -31,7 +36,7 @@ class Entry(dict[str, Any]):
         self.pointer = pointer
         self.raw = raw
         self.parent = parent
-        self.extensions: dict[str, Entry] = {}
+        self.extensions: Mapping[str, Entry] = _NO_EXTENSIONS
         self.is_used = False
 
     # Two objects of a file are never the same, whatever they hold.
@@ -40,6 +45,12 @@ class Entry(dict[str, Any]):
 
     def __eq__(self, other: object) -> bool:
         return self is other
+
+    def carry(self, name: str, extension: Entry) -> None:
+        """Add one of its extension objects."""
+        if not isinstance(self.extensions, dict):
+            self.extensions = {}
+        self.extensions[name] = extension
 
     def at(self, *keys: str | int) -> str:
         """Return the pointer of a value inside this object."""

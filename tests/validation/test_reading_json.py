@@ -6,6 +6,7 @@ import json
 
 import pytest
 
+from gltf_iri.asset import json_parts
 from gltf_iri.asset.limits import MAX_JSON_DEPTH
 from gltf_iri.errors import AssetError
 from gltf_iri.scene.load import load
@@ -153,10 +154,25 @@ def test_brackets_within_strings_are_no_depth(codes):
     assert codes(with_extras("[" + ",".join(['"["'] * 1000) + "]")) == set()
 
 
+def test_wide_and_deep_within_the_bound_is_counted_not_scanned(codes, monkeypatch):
+    monkeypatch.setattr(json_text, "too_deep_at", None)
+    assert codes(with_extras("[" + ("[" * 100 + "]" * 100 + ",") * 100 + "1]")) == set()
+
+
+def test_of_a_flood_of_repeated_keys_the_first_are_remembered(codes, monkeypatch):
+    monkeypatch.setattr(json_parts, "_MOST_REPEATED", 3)
+    twice = '{"a":1,"a":2}'
+    told = [("IRI_DUPLICATE_KEY", f"/asset/extras/a/{position}/a") for position in range(3)]
+    assert codes(with_extras("[" + ",".join([twice] * 9) + "]")) == set(told)
+
+
 def test_more_values_or_bytes_than_are_read_are_told(codes, monkeypatch):
     monkeypatch.setattr(json_text, "MAX_JSON_VALUES", 100)
     assert codes(with_extras("[" + "1," * 90 + "1]")) == set()
     assert codes(with_extras("[" + "1," * 101 + "1]")) == {("IRI_JSON_TOO_LARGE", "")}
+    monkeypatch.setattr(json_text, "MAX_JSON_OBJECTS", 20)
+    assert codes(with_extras("[" + "{}," * 17 + "1]")) == set()
+    assert codes(with_extras("[" + "{}," * 18 + "1]")) == {("IRI_JSON_TOO_LARGE", "")}
     monkeypatch.setattr(json_text, "MAX_JSON_BYTES", 1000)
     assert codes(with_extras(json.dumps("x" * 1000))) == {("IRI_JSON_TOO_LARGE", "")}
 

@@ -72,7 +72,7 @@ def resolve(root: Entry, pointer: str) -> Target | Unresolved:
     try:
         return _Search(root.raw, tokens).target()
     except Unresolved as reason:
-        return reason
+        return reason.with_traceback(None)  # whose frames would be kept with it
 
 
 class _Search:

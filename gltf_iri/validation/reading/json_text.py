@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
+from itertools import accumulate
 from typing import TYPE_CHECKING
 
 from gltf_iri.asset.json_parts import BYTE_ORDER_MARK, ESCAPED_SURROGATE, Hooks, reason_of, too_deep_at
-from gltf_iri.asset.limits import MAX_JSON_BYTES, MAX_JSON_DEPTH, MAX_JSON_VALUES
+from gltf_iri.asset.limits import MAX_JSON_BYTES, MAX_JSON_DEPTH, MAX_JSON_OBJECTS, MAX_JSON_VALUES
 from gltf_iri.asset.words import shown
 from gltf_iri.validation.codes import issue
 from gltf_iri.validation.entry import join
@@ -23,10 +24,11 @@ __all__ = ["read_json"]
 # Pointers into deep trees are long, and whoever sees a hundred such remarks knows enough.
 _MOST_TOLD = 100
 
-# Each round of `_may_be_deep` takes one or two levels away.
-_ROUNDS = MAX_JSON_DEPTH // 2
+# Each round of `_may_be_deep` takes one or two levels away, which nearly all files have no more of.
+_ROUNDS = 8
 
 _ALL_BUT_BRACKETS = bytes(byte for byte in range(256) if byte not in b"[]{}")
+_STEPS = tuple((chr(byte) in "[{") - (chr(byte) in "]}") for byte in range(256))
 _DIGITS_AS_ZEROS = bytes(ord("0") if chr(byte) in "0123456789" else 0 for byte in range(256))
 
 # So many digits on end may be an integer that a double does not hold.
@@ -36,12 +38,16 @@ _LONG_INTEGER = b"0" * 16
 _Way = tuple["_Way", "str | int"] | None
 
 
-def read_json(data: bytes, tell: Callable[[Issue], None]) -> dict[str, Any] | None:
+def read_json(given: bytes | memoryview, tell: Callable[[Issue], None]) -> dict[str, Any] | None:
     """Return the glTF object, or None where there is none; `tell` hears what is wrong.
 
     As for the Khronos validator, a byte order mark is told and what follows it is read, numbers beyond
     doubles are infinite, and of a key that stands twice the last value holds.
     """
+    if len(given) > MAX_JSON_BYTES:
+        tell(issue("IRI_JSON_TOO_LARGE", "", size=f"{len(given)} bytes", most=MAX_JSON_BYTES))
+        return None
+    data = bytes(given)  # the bytes themselves where they are no part of a GLB
     if data.startswith(BYTE_ORDER_MARK):
         tell(issue("INVALID_JSON", "", reason="it starts with a byte order mark"))
         data = data[len(BYTE_ORDER_MARK) :]
@@ -85,10 +91,11 @@ def _refuse_constant(word: str) -> Any:
 
 
 def _is_beyond_limits(data: bytes, tell: Callable[[Issue], None]) -> bool:
-    if len(data) > MAX_JSON_BYTES:
-        tell(issue("IRI_JSON_TOO_LARGE", "", size=f"{len(data)} bytes", most=MAX_JSON_BYTES))
+    objects = data.count(b"{")
+    if objects > MAX_JSON_OBJECTS:
+        tell(issue("IRI_JSON_TOO_LARGE", "", size=f"about {objects} objects", most=MAX_JSON_OBJECTS))
         return True
-    brackets = data.count(b"[") + data.count(b"{")
+    brackets = data.count(b"[") + objects
     values = brackets + data.count(b",")
     if values > MAX_JSON_VALUES:
         tell(issue("IRI_JSON_TOO_LARGE", "", size=f"about {values} values", most=MAX_JSON_VALUES))
@@ -106,20 +113,18 @@ def _too_deep(place: int) -> Issue:
 
 
 def _may_be_deep(data: bytes) -> bool:
-    """Tell whether a scan for depth is worth its time, by taking pairs of brackets away from inside out.
+    """Tell whether a scan for depth is worth its time, by taking pairs of brackets away from inside out, and
+    where many are left by counting them.
 
     Brackets within strings may make shallow JSON look deep, which the scan finds out, or deep JSON shallow,
     which the parser's own bound on recursion finds out.
     """
-    brackets = data.translate(None, _ALL_BUT_BRACKETS)
+    brackets = left = data.translate(None, _ALL_BUT_BRACKETS)
     for _ in range(_ROUNDS):
-        fewer = brackets.replace(b"[]", b"").replace(b"{}", b"")
-        if not fewer:
+        left = left.replace(b"[]", b"").replace(b"{}", b"")
+        if not left:
             return False
-        if len(fewer) == len(brackets):
-            return True
-        brackets = fewer
-    return True
+    return max(accumulate(map(_STEPS.__getitem__, brackets))) > MAX_JSON_DEPTH
 
 
 def _oddities(tree: dict[str, Any], hooks: Hooks) -> Iterator[Issue]:

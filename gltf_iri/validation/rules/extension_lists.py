@@ -26,8 +26,9 @@ _NAME = re.compile(r"[A-Z0-9]+_[A-Za-z0-9_]+")
 def used_extensions_are_known(entry: Entry, asset: Asset) -> Iterator[Issue]:
     """Each name has the form of one, is an extension of our tables, and is required if it must be."""
     required = set(entry.get("extensionsRequired", ()))
+    listed = entry.at("extensionsUsed")
     for position, name in enumerate(entry.get("extensionsUsed", ())):
-        pointer = entry.at("extensionsUsed", position)
+        pointer = f"{listed}/{position}"
         if not _NAME.fullmatch(name):
             yield issue("INVALID_EXTENSION_NAME_FORMAT", pointer)
         if name not in EXTENSIONS:

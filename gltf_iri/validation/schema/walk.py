@@ -140,7 +140,7 @@ class Walk:
                 else:
                     # What is no object counts as an empty one, as for the Khronos validator.
                     stated = raw if isinstance(raw, dict) else {}
-                    entry.extensions[name] = self.object(table, stated, place, entry)
+                    entry.carry(name, self.object(table, stated, place, entry))
         if len(value) > 1:
             for name in entry.extensions:
                 if EXTENSIONS[name].stands_alone:
