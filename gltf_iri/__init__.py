@@ -256,7 +256,7 @@ def validate(
     folder: str | PathLike[str] | None = None,
     ignore: Iterable[str] = (),
     only: Iterable[str] = (),
-    override: Mapping[str, int] | None = None,
+    override: Mapping[str, int | str] | None = None,
     max_issues: int = 0,
     resources: bool = True,
     optics: bool = False,
@@ -272,20 +272,24 @@ def validate(
     uri : what the report calls the file; without it the path.
     folder : where the files that it names lie; without it the file's own folder, for bytes none.
     ignore, only : codes to leave out, or to tell alone.
-    override : code to severity.
+    override : code to severity, 0 to 3 or "error", "warning", "information", "hint".
     max_issues : stop after so many remarks; 0 for all.
     resources : whether buffers and pictures beside the file are read.
     optics : measure in ΔE what the remarks on films and layers mean, which takes seconds.
 
-    Raises UsageError where `source` cannot be read, AssetError where it is larger than any file may be.
+    Raises UsageError where `source` cannot be read or a code is unknown, AssetError where it is too large.
     """
     from pathlib import Path
 
     from gltf_iri.validation.options import Options
     from gltf_iri.validation.validate import validate as validate_file
 
-    options = Options(max_issues=max_issues, resources=resources, optics=optics, override=override or {})
-    options.ignore, options.only = frozenset(ignore), frozenset(only)
+    options = Options(max_issues=max_issues, resources=resources, optics=optics)
+    if ignore or only or override or max_issues:
+        from gltf_iri.validation.config import settings_of
+
+        said = settings_of(ignore, only, override or {}, max_issues)
+        options.ignore, options.only, options.override = said.ignore, said.only, said.override
     return validate_file(source, uri=uri, folder=None if folder is None else Path(folder), options=options)
 
 

@@ -197,6 +197,27 @@ def test_validate_takes_a_path_or_bytes_and_reports(model, tmp_path):
         gltf_iri.validate(tmp_path / "nothing.glb")
 
 
+def test_validate_takes_severities_by_name():
+    assert gltf_iri.validate(b"[", override={"INVALID_JSON": "hint"}).counts == (0, 0, 0, 1)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "told"),
+    [
+        ({"ignore": ["INVALID_JASON"]}, "the nearest is 'INVALID_JSON'"),
+        ({"only": "INVALID_JSON"}, "only takes a list of codes"),
+        ({"ignore": ["NODE_EMPTY"], "only": ["NODE_LOOP"]}, "exclude each other"),
+        ({"override": {"NODE_EMPTY": "awful"}}, "override, NODE_EMPTY: 'awful' is no severity"),
+        ({"override": {"NODE_EMPTY": 4}}, "4 is no severity"),
+        ({"override": {"NODE_ENTY": 0}}, "override: there is no code"),
+        ({"max_issues": -1}, "max_issues must be a whole number"),
+    ],
+)
+def test_validate_refuses_what_would_change_nothing_or_too_much(wrong, told):
+    with pytest.raises(UsageError, match=told):
+        gltf_iri.validate(b"[", **wrong)
+
+
 @pytest.mark.gl
 def test_render_draws_the_scene_and_leaves_the_background(model, gl_context):
     frame = gltf_iri.render(model, size=(40, 30), environment=white(), method="khr")

@@ -29,6 +29,8 @@ def shown(value: object, longest: int = _LONGEST) -> str:
     """Quote a value of the file: escaped, and cut where it is long (a data URI may have megabytes)."""
     if isinstance(value, dict | list):
         return kind_of(value)
+    if value is None or isinstance(value, bool):
+        return {None: "null", True: "true", False: "false"}[value]
     return _shortened(repr(value[: 2 * longest] if isinstance(value, str) else value), longest)
 
 

@@ -11,7 +11,7 @@ from gltf_iri.errors import AssetError, UsageError
 from gltf_iri.validation.codes_table import every_code
 from gltf_iri.validation.issue import SEVERITY_NAMES
 
-__all__ = ["KEYS", "Settings", "known_codes", "overrides", "read_settings", "severity_of"]
+__all__ = ["KEYS", "Settings", "known_codes", "overrides", "read_settings", "settings_of", "severity_of"]
 
 # The keys of the Khronos validator's docs/config-example.yaml, so that one file serves both.
 KEYS = ("max-issues", "ignore", "only", "override")
@@ -37,10 +37,13 @@ class Settings:
         self.override = dict(override or {})
         self.max_issues = max_issues
 
-    def checked(self) -> Settings:
-        """Return these settings; UsageError where a code does not exist, or both choices are used."""
+    def checked(self, prefix: str = "--") -> Settings:
+        """Return these settings; UsageError where a code does not exist, or both choices are used.
+
+        prefix : what stands before an option's name where the user wrote it.
+        """
         for option in ("ignore", "only", "override"):
-            known_codes(getattr(self, option), f"--{option}")
+            known_codes(getattr(self, option), f"{prefix}{option}")
         return self.with_more(Settings())
 
     def with_more(self, more: Settings) -> Settings:
@@ -85,6 +88,19 @@ def _nearest(word: str, words: Iterable[str]) -> str:
 
     close = get_close_matches(word[:100], list(words), n=1)
     return f"; the nearest is {close[0]!r}" if close else ""
+
+
+def settings_of(
+    ignore: Iterable[str], only: Iterable[str], override: Mapping[str, int | str], max_issues: int
+) -> Settings:
+    """Return the settings that a caller from Python states; UsageError says what is wrong with them."""
+    for name, codes in (("ignore", ignore), ("only", only)):
+        if isinstance(codes, str):
+            raise UsageError(f"{name} takes a list of codes, not one text.")
+    if not isinstance(max_issues, int) or max_issues < 0:
+        raise UsageError("max_issues must be a whole number, 0 for all.")
+    severities = {code: severity_of(value, f"override, {code}") for code, value in override.items()}
+    return Settings(ignore, only, severities, max_issues).checked("")
 
 
 def overrides(said: Iterable[str]) -> dict[str, int]:

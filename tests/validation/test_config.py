@@ -59,7 +59,7 @@ def test_severities_may_be_names_or_numbers(settings) -> None:
         ("only: [3]", "'only' must be a list of codes."),
         ("override: [UNUSED_OBJECT]", "'override' must map codes to severities."),
         ("override: {UNUSED_OBJECT: 4}", "UNUSED_OBJECT: 4 is no severity; say error, warning,"),
-        ("override: {UNUSED_OBJECT: true}", "True is no severity"),
+        ("override: {UNUSED_OBJECT: true}", "true is no severity"),
         ("max-issues: -1", "'max-issues' must be a whole number"),
         ("max-issues: many", "'max-issues' must be a whole number"),
         ("- ignore", "must map keys to values"),

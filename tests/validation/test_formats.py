@@ -191,6 +191,12 @@ def test_sarif_names_each_rule_once_with_what_github_demands() -> None:
         assert driver["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
 
 
+def test_sarif_helps_with_what_a_remark_on_films_rests_on() -> None:
+    hint = judged(remark("IRI_IRIDESCENCE_INDEX_ORDER", 3, "…", pointer="/materials/0"))
+    (rule,) = run(hint)["tool"]["driver"]["rules"]
+    assert "PlayCanvas" in rule["help"]["text"]
+
+
 def test_sarif_says_where_and_how_bad() -> None:
     lined, in_glb = run(LINED, IN_GLB)["results"]
     assert (lined["level"], in_glb["level"]) == ("warning", "error")

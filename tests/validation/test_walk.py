@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 from small_meshes import POSITIONS
+
+from gltf_iri.validation.validate import validate
 
 Codes = Callable[..., set[tuple[str, str | int | None]]]
 
@@ -183,3 +186,9 @@ def test_numbers_beyond_a_double_are_told_and_never_met_by_a_rule(
     told = codes(f'{{"asset": {{"version": "2.0"}}, "nodes": [{{"extras": {{}}, "{key}": {value}}}]}}')
     assert {code for code, _ in told} <= {"VALUE_NOT_IN_RANGE", "INVALID_INDEX", "TYPE_MISMATCH"}
     assert told
+
+
+@pytest.mark.parametrize(("value", "word"), [(None, "null"), (True, "true"), ([], "an array"), ("a", "'a'")])
+def test_a_value_is_shown_in_the_words_of_json(value: object, word: str) -> None:
+    report = validate(json.dumps({"asset": {"version": "2.0"}, "scene": value}).encode())
+    assert f"The value {word} is not an index." in [told.message for told in report.issues]

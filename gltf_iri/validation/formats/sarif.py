@@ -18,6 +18,7 @@ from gltf_iri import __version__
 from gltf_iri.validation.codes import CODES
 from gltf_iri.validation.codes_table import as_text
 from gltf_iri.validation.formats.judged import Judged
+from gltf_iri.validation.iridescence.codes import IRIDESCENCE_REASONS
 from gltf_iri.validation.issue import ERROR, INFORMATION, WARNING
 
 __all__ = ["SCHEMA", "written"]
@@ -58,12 +59,13 @@ def _rule(message: dict[str, Any]) -> dict[str, Any]:
     # A rule from outside may be known to the workers that used it and not here.
     severity, sentence = CODES.get(message["code"], (INFORMATION, message["message"]))
     text = {"text": as_text(sentence)}
+    reason = IRIDESCENCE_REASONS.get(message["code"])
     level = {"level": _LEVELS.get(severity, "note")}
     return {
         "id": message["code"],
         "shortDescription": text,
         "fullDescription": text,
-        "help": text,
+        "help": text if reason is None else {"text": reason},
         "defaultConfiguration": level,
     }
 
