@@ -11,6 +11,7 @@ import json
 import os
 import resource
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -45,12 +46,14 @@ def walk(path: Path) -> tuple[list[str], str]:
     return list(notes), json.dumps(plans, ensure_ascii=False)
 
 
-def cost(path: Path, most_bytes: int, most_seconds: int) -> dict[str, Any]:
+def cost(
+    path: Path, most_bytes: int, most_seconds: int, walk: Callable[[Path], object] = walk
+) -> dict[str, Any]:
     """Walk in a child process; return its end in a word, its seconds and by how many bytes it grew."""
     before = _pages(1) * PAGE
     child = os.fork()
     if child == 0:
-        _walk_bounded(path, _pages(0) * PAGE + most_bytes, most_seconds)
+        _walk_bounded(walk, path, _pages(0) * PAGE + most_bytes, most_seconds)
     _, status, used = os.wait4(child, 0)
     return {
         "file": path.name,
@@ -60,7 +63,7 @@ def cost(path: Path, most_bytes: int, most_seconds: int) -> dict[str, Any]:
     }
 
 
-def _walk_bounded(path: Path, most_bytes: int, most_seconds: int) -> None:
+def _walk_bounded(walk: Callable[[Path], object], path: Path, most_bytes: int, most_seconds: int) -> None:
     end = 2
     try:
         resource.setrlimit(resource.RLIMIT_AS, (most_bytes, most_bytes))
