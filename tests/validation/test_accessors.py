@@ -135,3 +135,8 @@ def test_infinite_bounds_of_integers_are_told(codes: Codes) -> None:
     text = '{"asset":{"version":"2.0"},"accessors":[%s]}'
     element = '{"componentType":5121,"count":1,"type":"SCALAR","min":[1e999]}'
     assert codes(text % element) == {("VALUE_NOT_IN_RANGE", f"{AT}/min/0")}
+
+
+def test_offsets_that_make_up_for_each_other_are_told_where_they_stand(codes: Codes) -> None:
+    wrong = ("ACCESSOR_OFFSET_ALIGNMENT", f"{AT}/byteOffset")
+    assert codes(in_view(accessor(byteOffset=1), byteOffset=3)) == {wrong}
