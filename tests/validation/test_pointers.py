@@ -97,7 +97,7 @@ def test_many_values_are_told_of_in_one_remark(judge: Any) -> None:
     data = struct.pack(f"<{len(values)}f", *values)
     asset = _animated("/materials/0/emissiveFactor", data, {}, {"count": len(values) // 3})
     (found,) = (i for i in judge(asset).issues if i.code == "IRI_POINTER_VALUE")
-    assert ": 2, the first at 66667" in found.message
+    assert "; 2 do not, the first at 66667: -1." in found.message
 
 
 def test_a_value_allowed_alone_hides_none_between_it_and_the_range(codes: Any) -> None:
@@ -109,3 +109,20 @@ def test_a_value_allowed_alone_hides_none_between_it_and_the_range(codes: Any) -
     asset["extensionsUsed"].append("KHR_materials_ior")
     asset["materials"] = [{"extensions": {"KHR_materials_ior": {}}}]
     assert ("IRI_POINTER_VALUE", "/animations/0/samplers/0/output") in codes(asset)
+
+
+def test_each_sampler_has_values_of_its_own(judge: Any) -> None:
+    asset = _animated("/materials/0/emissiveFactor", struct.pack("<12f", *[0.5] * 6, *[1.5] * 6), {}, {})
+    asset["accessors"].append({**asset["accessors"][1], "byteOffset": 24})
+    animation = asset["animations"][0]
+    animation["samplers"].append({"input": 0, "output": 2})
+    animation["channels"].append({**animation["channels"][0], "sampler": 1})
+    found = [i.pointer for i in judge(asset).issues if i.code == "IRI_POINTER_VALUE"]
+    assert found == ["/animations/0/samplers/1/output"]
+
+
+def test_values_of_another_size_are_told_as_that_alone(codes: Any) -> None:
+    data = struct.pack("<4f", *[9.0] * 4)
+    told = {code for code, _ in codes(_animated("/materials/0/emissiveFactor", data, {}, {"type": "VEC2"}))}
+    assert "IRI_POINTER_OUTPUT_TYPE" in told
+    assert "IRI_POINTER_VALUE" not in told
