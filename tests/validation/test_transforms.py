@@ -75,6 +75,15 @@ def test_products_of_rotation_and_scale(elements: dict[str, float], codes: Codes
     assert codes(matrix(**elements)) == set()
 
 
+@pytest.mark.parametrize("scales", [(1, 0.001, 1), (100, 1, 1), (1000, 0.01, 1), (1000, 1000, 1000)])
+def test_turned_boxes_written_to_six_decimals(scales: tuple[float, ...], codes: Codes) -> None:
+    axes = [(2, 1, 2), (-2, 2, 1), (-1, -2, 2)]  # a rotation, times 3
+    turned: list[float] = []
+    for axis, scale in zip(axes, scales, strict=True):
+        turned += [*(round(part * scale / 3, 6) for part in axis), 0]
+    assert codes(node(matrix=[*turned, 0, 0, 0, 1])) == set()
+
+
 @pytest.mark.parametrize(
     "elements",
     [

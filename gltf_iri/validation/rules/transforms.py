@@ -24,9 +24,8 @@ __all__ = ["RULES", "has_transform"]
 LENGTH_TOLERANCE = 0.00769
 
 # How far the end of an axis may lie from where a rotation and a scale would put it: the Khronos validator's
-# bound, by bisection; beyond 200 units the rounding of single precision is more.
+# bound, by bisection, for axes of length 1; longer ones are rounded in proportion.
 AXIS_TOLERANCE = 5e-5
-SINGLE_ROUNDING = 2.0**-22
 
 _TRS = ("translation", "rotation", "scale")
 _LAST_ROW = (0.0, 0.0, 0.0, 1.0)
@@ -79,10 +78,13 @@ def _is_decomposable(matrix: tuple[float, ...]) -> bool:
 
 
 def _are_perpendicular(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
-    """Tell whether turning each axis by half of what lacks to a right angle moves its end by too little."""
-    lengths = math.hypot(*a), math.hypot(*b)
-    moved = abs(_dot(a, b)) / (2 * min(lengths))
-    return moved <= max(AXIS_TOLERANCE, SINGLE_ROUNDING * max(lengths))
+    """Tell whether the end of the shorter axis lies where a right angle to the longer one wants it.
+
+    Half of the way is the longer one's to go. Decals are a thousand times flatter than wide and written to six
+    decimals: seen from the longer axis, that would be no right angle.
+    """
+    longer = max(math.hypot(*a), math.hypot(*b))
+    return abs(_dot(a, b)) / (2 * longer) <= AXIS_TOLERANCE * max(1, longer)
 
 
 def _dot(a: tuple[float, ...], b: tuple[float, ...]) -> float:
