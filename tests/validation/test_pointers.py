@@ -97,7 +97,7 @@ def test_many_values_are_told_of_in_one_remark(judge: Any) -> None:
     data = struct.pack(f"<{len(values)}f", *values)
     asset = _animated("/materials/0/emissiveFactor", data, {}, {"count": len(values) // 3})
     (found,) = (i for i in judge(asset).issues if i.code == "IRI_POINTER_VALUE")
-    assert "; 2 do not, the first at 66667: -1." in found.message
+    assert "the first of 2 outside is -1, at 66667" in found.message
 
 
 def test_a_value_allowed_alone_hides_none_between_it_and_the_range(codes: Any) -> None:

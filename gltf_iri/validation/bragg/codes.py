@@ -33,12 +33,12 @@ BRAGG_CODES: dict[str, tuple[int, str]] = {
     "IRI_BRAGG_ONE_CELL": (HINT, "One cell is a single film of ior2: there is no periodic mirror."),
     "IRI_BRAGG_BAND_INVISIBLE": (
         INFORMATION,
-        "The longest band lies at {nm:.5g} nm and is {width:.5g} nm wide: all of it is below {end:g} nm, "
+        "The longest band lies at {nm:.5g} nm and is {width:.3g} nm wide: all of it is below {end:g} nm, "
         "where nothing is seen.",
     ),
     "IRI_BRAGG_WASHED_OUT": (
         INFORMATION,
-        "Cells {nm:.5g} nm thick, as light counts it, have {orders:.5g} bands within what is seen: their "
+        "Cells {nm:.5g} nm thick, as light counts it, have {orders:.3g} bands within what is seen: their "
         "colours add up to grey.",
     ),
     "IRI_BRAGG_PERIODS_REVERSED": (

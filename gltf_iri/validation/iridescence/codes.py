@@ -89,20 +89,23 @@ _STATED: dict[str, tuple[int, str, str]] = {
     ),
     "IRI_IRIDESCENCE_BASE_REFLECTS_ALL": (
         WARNING,
-        "The base, {lobe}, reflects all light: no film can be seen on it, and the formula is undefined.",
+        "The base, {lobe}, reflects all light: no film can be seen on it, and the formula, which PlayCanvas "
+        "follows, is undefined.",
         "Material Interfaces: baseF0 + 0.0001 divides by zero at 0.9999 and makes the base's index negative "
         "above. PlayCanvas does so; three.js, Babylon.js and the Khronos sample renderer cut F0 to 0.9999.",
     ),
     "IRI_IRIDESCENCE_BASE_F0_UNDEFINED": (
         INFORMATION,
-        "The base, {lobe}, reflects all of {channels}: the extension's formula is undefined there.",
+        "The base, {lobe}, reflects all of {channels}: the formula, which PlayCanvas follows, is undefined "
+        "there.",
         "Material Interfaces: baseF0 + 0.0001 divides by zero at 0.9999 and makes the base's index negative "
         "above, which turns the phase; red's is that of X, so that all channels change (gold by ΔE 6). "
         "PlayCanvas does so; three.js, Babylon.js and the Khronos sample renderer cut F0 to 0.9999.",
     ),
     "IRI_IRIDESCENCE_INDEX_ORDER": (
         HINT,
-        "The film's index {ior:g} is above its base's, {lobe}: a negative number in the formula's pow().",
+        "The film's index {ior:g} is above its base's, {lobe}: the formula, which PlayCanvas follows, takes "
+        "pow() of a negative number.",
         "Material Interfaces: IorToFresnel0 squares by pow(x, 2.0), which GLSL leaves undefined below 0. "
         "PlayCanvas has it so; three.js, Babylon.js and the Khronos sample renderer multiply x by x.",
     ),

@@ -21,6 +21,6 @@ POINTER_CODES: dict[str, tuple[int, str]] = {
     ),
     "IRI_POINTER_VALUE": (
         ERROR,
-        "Values for {target} lie outside {range}: {count}, the first at {index}, {value}.",
+        "Values for {target} must lie in {range}; the first of {count} outside is {value}, at {index}.",
     ),
 }
