@@ -65,7 +65,7 @@ def read(data: bytes, name: str, tell: Callable[[Issue], None]) -> Reading:
     if not is_binary(data, name):
         return Reading(read_json(data, tell))
     container = read_container(data, tell)
-    root = None if container.json is None else read_json(bytes(container.json), tell)
+    root = None if container.json is None else read_json(container.json, tell)
     is_whole, ends_empty = container.is_whole, container.ends_empty
     return Reading(root, container.binary, is_glb=True, is_whole=is_whole, ends_empty=ends_empty)
 
