@@ -80,8 +80,8 @@ def _is_decomposable(matrix: tuple[float, ...]) -> bool:
 def _are_perpendicular(a: tuple[float, ...], b: tuple[float, ...]) -> bool:
     """Tell whether the end of the shorter axis lies where a right angle to the longer one wants it.
 
-    Half of the way is the longer one's to go. Decals are a thousand times flatter than wide and written to six
-    decimals: seen from the longer axis, that would be no right angle.
+    Half of the way is the longer one's to go. Decals are a thousand times flatter than wide and written to
+    six decimals: seen from the longer axis, that would be no right angle.
     """
     longer = max(math.hypot(*a), math.hypot(*b))
     return abs(_dot(a, b)) / (2 * longer) <= AXIS_TOLERANCE * max(1, longer)
