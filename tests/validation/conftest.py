@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -14,11 +13,11 @@ from gltf_iri.validation.options import Options
 from gltf_iri.validation.report import Report
 from gltf_iri.validation.validate import validate
 
+if TYPE_CHECKING:
+    from judging import Codes, Judge
+
 # At the end: no module of another folder is hidden.
 sys.path.append(str(Path(__file__).resolve().parent))
-
-Judge = Callable[..., Report]
-Codes = Callable[..., set[tuple[str, str | int | None]]]
 
 
 def _judge(asset: dict[str, Any] | str | bytes, folder: Path | None = None, **options: Any) -> Report:

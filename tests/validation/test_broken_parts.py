@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-from conftest import Judge
+from judging import Judge
 from small_data import FLOAT, IDENTITY, UNSIGNED_BYTE, UNSIGNED_SHORT, Data
 from small_pictures import png
 

@@ -6,7 +6,7 @@ from math import inf, nan
 from typing import Any
 
 import pytest
-from conftest import Codes
+from judging import Codes
 from small_data import BYTE, FLOAT, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT, Data
 
 from gltf_iri.validation.data.elements import BLOCK

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conftest import Codes, Judge
+from judging import Codes, Judge
 from small_data import FLOAT, UNSIGNED_BYTE, UNSIGNED_INT, UNSIGNED_SHORT, Data
 
 from gltf_iri.validation.data.elements import BLOCK

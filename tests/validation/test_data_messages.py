@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conftest import Judge
+from judging import Judge
 from small_data import FLOAT, IDENTITY, UNSIGNED_INT, Data
 
 from gltf_iri.validation.data.elements import BLOCK

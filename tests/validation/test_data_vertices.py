@@ -6,7 +6,7 @@ from math import inf, nan
 from typing import Any
 
 import pytest
-from conftest import Codes, Judge
+from judging import Codes, Judge
 from small_data import BYTE, FLOAT, SHORT, UNSIGNED_BYTE, Data
 
 from gltf_iri.validation.data.elements import BLOCK

@@ -6,7 +6,7 @@ from math import inf, nan
 from typing import Any
 
 import pytest
-from conftest import Codes
+from judging import Codes
 from small_data import FLOAT, UNSIGNED_BYTE, UNSIGNED_SHORT, Data
 
 AT = "/meshes/0/primitives/0/attributes/"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conftest import Codes, Judge
+from judging import Codes, Judge
 from small_pictures import data_uri, jpeg, png, sof, vp8, vp8x
 
 WITH_WEBP = {"extensionsUsed": ["EXT_texture_webp"]}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conftest import Judge
+from judging import Judge
 from small_meshes import INDICES, POSITIONS, UNSIGNED_BYTE, accessor, mesh
 from small_pictures import data_uri, jpeg, png, sof
 

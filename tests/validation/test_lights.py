@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import pytest
-from conftest import Codes
+from judging import Codes
 
 NAME = "KHR_lights_punctual"
 LIGHT = f"/extensions/{NAME}/lights/0"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from conftest import Codes
+from judging import Codes
 from small_data import FLOAT, Data
 
 NAME = "KHR_materials_iridescence"

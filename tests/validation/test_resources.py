@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from conftest import Codes, Judge
+from judging import Codes, Judge
 from small_data import UNSIGNED_BYTE, Data, binary
 
 OCTETS = "data:application/octet-stream;base64,"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from conftest import Codes
+from judging import Codes
 from small_data import binary
 
 from gltf_iri.validation.files import uris
