@@ -43,8 +43,9 @@ MAX_JSON_BYTES: Final = 128 * 2**20
 MAX_JSON_VALUES: Final = 4_000_000
 
 # Opening braces, for the validator alone: of each object it keeps what stands in the file, what of it is
-# sound, and where, up to 700 bytes together. A real file of four million values has about as many.
-MAX_JSON_OBJECTS: Final = 500_000
+# sound, and where, up to 700 bytes together, and some microseconds go into it: so many take two seconds. A
+# file of a hundred thousand nodes, each with a mesh of its own, has about as many.
+MAX_JSON_OBJECTS: Final = 400_000
 
 # The core schema nests 8 deep; the rest is for extras. Python's parser recurses and gives up near 1000.
 MAX_JSON_DEPTH: Final = 128
