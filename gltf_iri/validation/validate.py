@@ -90,11 +90,26 @@ def _no_collection() -> Iterator[None]:
 def _judge(
     raw: dict[str, Any], reading: Reading, collector: Collector, options: Options, folder: Path | None
 ) -> dict[str, Any] | None:
-    """Run every stage and return the `info` block.
+    """Run every stage and return the `info` block; what was kept of the file is then let go at once."""
+    walk = Walk(collector)
+    try:
+        return _stages(raw, walk, reading, collector, options, folder)
+    finally:
+        walk.let_go()
+
+
+def _stages(
+    raw: dict[str, Any],
+    walk: Walk,
+    reading: Reading,
+    collector: Collector,
+    options: Options,
+    folder: Path | None,
+) -> dict[str, Any] | None:
+    """Run every stage.
 
     Of an unknown version, and of a file that breaks off, only the JSON is judged: no data, and no block.
     """
-    walk = Walk(collector)
     try:
         root = walk.root(raw)
     except EnoughError:

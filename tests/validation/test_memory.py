@@ -8,6 +8,7 @@ import json
 import pytest
 
 from gltf_iri.validation.collector import Collector
+from gltf_iri.validation.entry import Entry
 from gltf_iri.validation.options import Options
 from gltf_iri.validation.pointers.target import Unresolved, resolve
 from gltf_iri.validation.schema.walk import Walk
@@ -23,6 +24,18 @@ def test_garbage_is_collected_afterwards_as_it_was_before(is_on: bool) -> None:
         validate(json.dumps(FILE).encode())
         validate(b"no JSON")
         assert gc.isenabled() is is_on
+    finally:
+        gc.enable()
+
+
+def test_no_object_of_a_file_waits_to_be_found_as_garbage() -> None:
+    stated = {**FILE, "nodes": [{"children": [1]}, {"mesh": 0}], "meshes": [{"primitives": []}]}
+    gc.collect()
+    gc.disable()
+    try:
+        before = sum(isinstance(thing, Entry) for thing in gc.get_objects())
+        validate(json.dumps(stated).encode())
+        assert sum(isinstance(thing, Entry) for thing in gc.get_objects()) == before
     finally:
         gc.enable()
 

@@ -63,6 +63,15 @@ class Walk:
         known = TABLES["glTF"].fields.keys() | {"extensions", "extras"}
         return self.object("glTF", {key: raw[key] for key in raw if key in _READ_FIRST or key not in known})
 
+    def let_go(self) -> None:
+        """Take entries from those that they hold, so that all of them go when the last is asked for.
+
+        Objects that hold each other would wait for Python to look for them, a large file's for long.
+        """
+        for entry in self.entries:
+            entry.parent = None
+        self.entries.clear()
+
     def object(
         self, table_name: str, raw: dict[str, Any], pointer: str = "", parent: Entry | None = None
     ) -> Entry:
