@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -186,15 +188,17 @@ def test_a_budget_is_kept_by_tables_or_where_tables_do_not_reach_by_a_method(
     assert np.percentile(delta_e, 95) <= float(budget)
 
 
-def test_memory_stays_bounded_whatever_the_rows(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_memory_stays_bounded_whatever_the_rows(tmp_path: Path) -> None:
     peaks = []
     for count in (1 << 19, 1 << 21):
         rows = np.lib.format.open_memmap(tmp_path / "films.npy", mode="w+", dtype="f4", shape=(count, 2))
         rows.flush()
         out = str(tmp_path / "colours.npy")
         options = ("--method", "naive-rgb", "--backend", "numpy", "--json")
-        assert run(["evaluate", "--in", str(tmp_path / "films.npy"), "--out", out, *options]) == 0
-        peaks.append(json.loads(capsys.readouterr().out)["anonymous_bytes"])
+        # A process of its own: what earlier tests left free in this one would hide or add to what is used.
+        command = [sys.executable, "-m", "gltf_iri", "evaluate", "--in", str(tmp_path / "films.npy")]
+        done = subprocess.run([*command, "--out", out, *options], capture_output=True, text=True, check=True)
+        peaks.append(json.loads(done.stdout)["anonymous_bytes"])
     if None in peaks:
         pytest.skip("the system does not tell how much memory a process holds")
     # As float64, what is read and written by the second call alone takes 84 MB, and by the first 21.

@@ -33,9 +33,9 @@ def test_no_object_of_a_file_waits_to_be_found_as_garbage() -> None:
     gc.collect()
     gc.disable()
     try:
-        before = sum(isinstance(thing, Entry) for thing in gc.get_objects())
+        before = sum(type(thing) is Entry for thing in gc.get_objects())
         validate(json.dumps(stated).encode())
-        assert sum(isinstance(thing, Entry) for thing in gc.get_objects()) == before
+        assert sum(type(thing) is Entry for thing in gc.get_objects()) == before
     finally:
         gc.enable()
 
